@@ -48,6 +48,10 @@ void SceneOptions::add_values_to(CLI::App& command) {
       "X,Y of the site's centre in the file's coordinates, or local:X,Y from its lower-left "
       "corner; default its centre");
   command.add_option("--size", size, "X,Y extent of the site [m]");
+  command.add_option(
+      "--soil", soil,
+      "soil of the site: the name of a shipped one or a file; for a world of another "
+      "simulator, which has none, or instead of the scene's one soil");
 }
 
 void SceneOptions::add_to(CLI::App& command) {
@@ -76,6 +80,7 @@ scene_io::Overrides SceneOptions::overrides() const {
     out.at_is_local = at.rfind(local, 0) == 0;
     out.at = parse_pair("--at", out.at_is_local ? at.substr(local.size()) : at);
   }
+  if (!soil.empty()) out.soil = soil;
   if (!size.empty()) out.size = parse_pair("--size", size);
   return out;
 }

@@ -29,6 +29,8 @@ struct SceneOptions {
   /// Values of the options --terrain, --at and --size as text. They are parsed by `overrides`, so
   /// that error messages can name the option.
   std::string terrain, at, size;
+  /// Name or file of the site's soil; empty: that of the scene.
+  std::string soil;
   /// Seed that replaces the scene's seed, if given.
   std::optional<std::uint64_t> seed;
   /// Maximum simulated time [s]; 0 for the duration in the scene.
@@ -36,8 +38,8 @@ struct SceneOptions {
   /// True to draw no pictures.
   bool no_render = false;
 
-  /// Adds the options that change values of the scene to `command`: --set, --seed, --terrain, --at
-  /// and --size. This struct must stay alive until the command has run.
+  /// Adds the options that change values of the scene to `command`: --set, --seed, --terrain, --at,
+  /// --size and --soil. This struct must stay alive until the command has run.
   void add_values_to(CLI::App& command);
   /// Adds all options and the scene argument to `command`. This struct must stay alive until the
   /// command has run.

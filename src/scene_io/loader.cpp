@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "scene_io/foreign.h"
 #include "scene_io/machine_reader.h"
 #include "scene_io/materials_reader.h"
 #include "scene_io/overrides.h"
@@ -16,14 +17,29 @@ namespace navvy::scene_io {
 
 namespace {
 
+/// Returns `document`, or a scene around it if it holds a machine alone.
+std::unique_ptr<Document> with_world(std::unique_ptr<Document> document, Faults& faults) {
+  const Element* root = document ? document->root() : nullptr;
+  if (root == nullptr || root->FirstChildElement("world") != nullptr ||
+      root->FirstChildElement("model") == nullptr)
+    return document;
+  // The faults of the machine are reported when the scene includes it.
+  Faults unread;
+  const scene::Machine machine = read_machine_file(document->file(), unread);
+  return Document::parse(scene_around(document->file(), height_to_stand(machine)), document->file(),
+                         faults);
+}
+
 scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& kinds,
                   const Overrides& overrides, std::string* resolved, Faults& faults) {
   scene::Scene world;
   // Without a document, finish() throws the fault of opening it.
+  document = with_world(std::move(document), faults);
   if (document) {
     check_resolved(*document, faults);
     // The same rules check the values of the file and of the command line.
     apply_overrides(*document, overrides, faults);
+    complete_world(*document, faults);
     world = read_world(*document, kinds, faults);
     warn_of_unused_seed(*document, overrides, world, faults);
   }
@@ -104,6 +120,7 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
   } else {
     check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
+    complete_world(*document, faults);
     scene::Scene read = read_world(*document, kinds, faults);
     warn_of_unused_seed(*document, overrides, read, faults);
     // Warnings do not prevent the use of a scene.

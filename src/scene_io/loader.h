@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads worlds, machines and soils from SDF 1.9 files with `navvy:` extension elements
-// (docs/reference/scene.md lists them all). Every reader collects the errors of all files involved
+// (docs/reference/scene.md lists them all), and worlds and machines of other simulators from SDF
+// 1.3 to 1.12 and URDF (docs/import.md). Every reader collects the errors of all files involved
 // before it throws; warnings are logged (core/log.h).
 #pragma once
 
@@ -30,7 +31,9 @@ struct Overrides {
   std::vector<std::pair<std::string, std::string>> set;
   std::optional<std::uint64_t> seed;  ///< seed of the scene
   std::optional<double> duration;     ///< maximum duration of the run [s]
-  std::optional<bool> render;         ///< true: cameras record images
+  /// Soil of the site: a name of a shipped soil or a file. It replaces the one soil of the scene.
+  std::optional<std::string> soil;
+  std::optional<bool> render;  ///< true: cameras record images
   /// Path of a heightmap, relative to the working directory; it replaces procedural shapes.
   std::optional<std::string> terrain;
   std::optional<Vec2> at;    ///< centre of the site in the coordinates of the map [m]
@@ -42,7 +45,8 @@ struct Overrides {
 /// no key before it
 std::pair<std::string, std::string> parse_setting(const std::string& text);
 
-/// Reads a scene file and all files that it names.
+/// Reads a scene file and all files that it names. A file with a machine alone, SDF or URDF, gives
+/// a scene in which it stands on the ground.
 ///
 /// @param kinds all types of program steps, usually control::step_kinds(); other steps are errors
 /// @param overrides changes to the scene

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "core/edit_distance.h"
 #include "core/error.h"
@@ -38,11 +39,64 @@ std::string find_data(const std::string& relative) {
 
 namespace {
 
+/// Returns the folders of models and packages that the environment names, in the order of search.
+std::vector<std::string> search_path() {
+  std::vector<std::string> out;
+  for (const char* name : {"NAVVY_MODEL_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH",
+                           "GAZEBO_MODEL_PATH", "ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"}) {
+    const char* value = std::getenv(name);
+    std::istringstream list(value != nullptr ? value : "");
+    // Packages of ROS 2 are below share/ of each prefix.
+    const std::string below = std::string(name) == "AMENT_PREFIX_PATH" ? "/share" : "";
+    for (std::string one; std::getline(list, one, ':');)
+      if (!one.empty()) out.push_back(one + below);
+  }
+  return out;
+}
+
+/// Returns the path of NAME/... below a folder of the search path, or below a folder that the file
+/// of `uri` is in; empty if there is none.
+std::string find_on_path(const Element& uri, const std::string& name) {
+  std::error_code ignored;
+  for (const std::string& folder : search_path())
+    if (fs::exists(fs::path(folder) / name, ignored)) return (fs::path(folder) / name).string();
+  // A copy of a whole repository is found without any setting.
+  fs::path above =
+      fs::weakly_canonical(fs::absolute(Document::of(uri).directory(), ignored), ignored);
+  for (int level = 0; level < 8 && above.has_relative_path(); ++level, above = above.parent_path())
+    if (fs::exists(above / name, ignored)) return (above / name).string();
+  // ROS_PACKAGE_PATH may name the package itself.
+  const std::size_t slash = name.find('/');
+  for (const std::string& folder : search_path())
+    if (slash != std::string::npos && fs::path(folder).filename() == name.substr(0, slash) &&
+        fs::exists(fs::path(folder) / name.substr(slash + 1), ignored))
+      return (fs::path(folder) / name.substr(slash + 1)).string();
+  return "";
+}
+
+/// Returns the remedy for a file that was not found.
+std::string way_to_find(const std::string& text) {
+  if (text.rfind("http://", 0) == 0 || text.rfind("https://", 0) == 0)
+    return "Navvy downloads nothing: fetch the model into a folder, name that folder in "
+           "NAVVY_MODEL_PATH and write model://NAME";
+  if (text.rfind("package://", 0) == 0 || text.rfind("model://", 0) == 0)
+    return "set NAVVY_MODEL_PATH to the folder that holds '" +
+           text.substr(text.find("://") + 3,
+                       text.find('/', text.find("://") + 3) - text.find("://") - 3) +
+           "'";
+  return "paths count from the file that names them";
+}
+
 // Returns the path of `text`; empty if there is no such file or folder.
 std::string locate(const Element& uri, const std::string& text) {
   std::error_code ignored;
-  // The name after the scheme counts from vehicles/, so that a scene can be sent to others.
-  if (text.rfind("model://", 0) == 0) return find_data("vehicles/" + text.substr(8));
+  for (const std::string scheme : {"model://", "package://"}) {
+    if (text.rfind(scheme, 0) != 0) continue;
+    const std::string name = text.substr(scheme.size());
+    // The name after the scheme counts from vehicles/, so that a scene can be sent to others.
+    const std::string shipped = scheme == "model://" ? find_data("vehicles/" + name) : "";
+    return shipped.empty() ? find_on_path(uri, name) : shipped;
+  }
   fs::path path = text.rfind("file://", 0) == 0 ? fs::path(text.substr(7)) : fs::path(text);
   if (path.is_relative()) path = fs::path(Document::of(uri).directory()) / path;
   return fs::exists(path, ignored) ? path.string() : "";
@@ -84,7 +138,7 @@ bool resolve_mesh(const Element& uri, std::string& path, Faults& faults) {
   const std::string found = locate(uri, text);
   if (found.empty() || !fs::is_regular_file(found, ignored)) {
     faults.error(uri, text, found.empty() ? "no such mesh file" : why_no_file(found),
-                 "paths count from the file that names them");
+                 way_to_find(text));
     return false;
   }
   // Reading shows later whether the content fits the name.
@@ -145,11 +199,16 @@ bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
   if (!found.empty() && fs::is_directory(found, ignored))
     found = (fs::path(found) / "model.sdf").string();
   if (found.empty() || !fs::is_regular_file(found, ignored)) {
-    const std::string way =
-        "give a path from this file to an SDF file or its directory, or model://NAME of a shipped "
-        "machine";
+    const bool elsewhere = text.find("://") != std::string::npos && text.rfind("file://", 0) != 0;
+    const std::string way = elsewhere && text.rfind("model://", 0) != 0
+                                ? way_to_find(text)
+                                : "give a path from this file to an SDF file or its directory, or "
+                                  "model://NAME of a shipped "
+                                  "machine";
     const std::string meant =
-        text.rfind("model://", 0) == 0 ? suggestion(text, shipped_models()) + " " : "";
+        text.rfind("model://", 0) == 0
+            ? suggestion(text, shipped_models()) + "; " + way_to_find(text) + ", or "
+            : "";
     faults.error(uri, text, "no such model", meant + way);
     return false;
   }

@@ -12,13 +12,14 @@ namespace navvy::scene_io {
 /// Returns the reason why `path` is not a regular file: missing, a pipe, a device or a directory.
 std::string why_no_file(const std::string& path);
 
-/// Finds the mesh file that the element `uri` names: relative to the file that contains the element,
-/// absolute, or model://NAME/... in a vehicles/ directory. Stores its absolute path in `path`.
-/// Reports an error and returns false if there is no such file.
+/// Finds the mesh file that the element `uri` names: relative to the file that contains the
+/// element, absolute, model://NAME/... in a vehicles/ directory, or model:// and package:// on the
+/// search path (docs/import.md). Stores its absolute path in `path`. Reports an error and returns
+/// false if there is no such file.
 bool resolve_mesh(const Element& uri, std::string& path, Faults& faults);
 
-/// Checks that the mesh file at `path` can be drawn. If `solid`, it also checks that the convex hull
-/// of its vertices can be used as a collision shape. A file is read only once, even if several
+/// Checks that the mesh file at `path` can be drawn. If `solid`, it also checks that the convex
+/// hull of its vertices can be used as a collision shape. A file is read only once, even if several
 /// elements name it. Errors are reported at `uri`; returns false after an error.
 bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults& faults);
 

@@ -384,6 +384,17 @@ void apply_overrides(Document& document, const Overrides& overrides, Faults& fau
   Element* world = document.root()->FirstChildElement("world");
   if (!world) return;  // the reader reports it
   if (overrides.terrain || overrides.at || overrides.size) apply_terrain(*world, overrides);
+  if (overrides.soil) {
+    if (Element* soil = world->FirstChildElement("navvy:soil")) {
+      if (soil->NextSiblingElement("navvy:soil") != nullptr)
+        key_fault("--soil", *overrides.soil, "the scene has several soils",
+                  "name one: --set soil[NAME].ref=" + *overrides.soil, faults);
+      else
+        Settings(*world, faults).apply("soil.ref", *overrides.soil);
+    } else {
+      world->InsertNewChildElement("navvy:soil")->SetAttribute("ref", overrides.soil->c_str());
+    }
+  }
   if (overrides.seed) set_value(*world, "navvy:seed", std::to_string(*overrides.seed));
   if (overrides.duration)
     set_value(section(*world, "navvy:recording"), "duration_s",

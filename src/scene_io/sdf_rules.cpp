@@ -329,6 +329,15 @@ bool is_used_sdf(const char* parent, const char* name) {
   return rule && rule->support == kUsed;
 }
 
+SdfTreatment sdf_treatment(const char* parent, const char* name, std::string* why) {
+  const Rule* rule = find_rule(parent, name);
+  if (rule == nullptr) return SdfTreatment::kUnknown;
+  if (why != nullptr) *why = rule->why;
+  if (rule->support == kError) return SdfTreatment::kRefused;
+  if (rule->support != kWarn) return SdfTreatment::kRead;
+  return rule->why == kLook ? SdfTreatment::kLook : SdfTreatment::kIgnored;
+}
+
 std::vector<SdfUse> sdf_uses() {
   std::vector<SdfUse> out;
   for (const Rule& rule : kRules)
@@ -342,21 +351,14 @@ std::vector<SdfUse> sdf_uses() {
 
 bool check_root(const Element& root, Faults& faults) {
   if (std::strcmp(root.Name(), "sdf") != 0) {
-    faults.error(
-        root, root.Name(), "the outermost element must be <sdf version=\"1.9\">",
-        std::strcmp(root.Name(), "robot") == 0
-            ? "convert URDF with `ign sdf -p FILE` (Debian 12) or `gz sdf -p FILE` (newer Gazebo)"
-            : "");
+    faults.error(root, root.Name(),
+                 "the outermost element must be <sdf version=\"1.9\">, or <robot> of URDF");
     return false;
   }
   const std::string version = attribute(root, "version");
-  // libsdformat reads a model by the version of its file. Before 1.7 joints had their axes in other
-  // frames; models without joints, such as Gazebo's ground plane, are read alike.
-  const auto* model = root.FirstChildElement("model");
-  const bool old = version == "1.3" || version == "1.4" || version == "1.5" || version == "1.6";
-  if (old && model != nullptr && !model->FirstChildElement("joint")) return true;
+  // import_document has brought other versions that it knows to 1.9.
   if (version != "1.7" && version != "1.8" && version != "1.9") {
-    faults.error(root, version, "the attribute version must be 1.9 (1.7 and 1.8 are understood)");
+    faults.error(root, version, "the attribute version must be 1.9 (1.3 to 1.12 are understood)");
     return false;
   }
   return true;

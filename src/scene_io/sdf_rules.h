@@ -21,6 +21,13 @@ bool is_used_sdf(const Element& element);
 /// Returns true if Navvy uses the SDF element `name` inside an element `parent`.
 bool is_used_sdf(const char* parent, const char* name);
 
+/// Treatment of an SDF element: Navvy reads it, ignores it because it only changes the look,
+/// ignores it for another reason, refuses it, or does not know it.
+enum class SdfTreatment { kRead, kLook, kIgnored, kRefused, kUnknown };
+/// Returns the treatment of the SDF element `name` inside an element `parent`. Writes the remedy
+/// for an element that is not read into `why`, which may be null.
+SdfTreatment sdf_treatment(const char* parent, const char* name, std::string* why = nullptr);
+
 /// One rule that states whether Navvy reads, ignores or refuses certain SDF elements; the reference
 /// page lists these rules.
 struct SdfUse {
@@ -33,7 +40,8 @@ struct SdfUse {
 /// Returns the rules for all SDF elements, in the order of the table of rules.
 std::vector<SdfUse> sdf_uses();
 
-/// Checks that the root element is <sdf> with a supported version. Returns false after an error.
+/// Checks that the root element is <sdf> with a supported version, as `import_document` leaves it.
+/// Returns false after an error.
 bool check_root(const Element& root, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -15,6 +15,7 @@
 #include "core/log.h"
 #include "core/renamed_names.h"
 #include "core/utf8.h"
+#include "scene_io/foreign.h"
 #include "scene_io/xml_limits.h"
 
 namespace navvy::scene_io {
@@ -153,6 +154,7 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
   // Before check_tree, which looks up limits by the current names.
   rename_old(*document->root());
   if (!check_tree(*document->root(), faults)) return nullptr;
+  if (!import_document(*document, faults)) return nullptr;
   // Counted in the text like the limit; tags in comments are included.
   document->elements_ = count_elements(text);
   faults.work.elements += document->elements_;
@@ -194,6 +196,11 @@ Element* Document::create(const char* name, const Element& from) {
   if (place.file != nullptr) place.file = &*other_files_.insert(*place.file).first;
   element->SetUserData(&places_.emplace_back(place));
   return element;
+}
+
+void Document::replace_root(Element& root) {
+  xml_.DeleteChild(xml_.RootElement());
+  xml_.InsertEndChild(&root);
 }
 
 void Document::append_copy(Element& parent, const Element& from) {

@@ -110,7 +110,8 @@ Place place_of(const Element& element);
 class Document {
  public:
   /// Reads and parses a file; returns null after an error (missing, unreadable, not XML). Old names
-  /// of elements and values are replaced by the current ones.
+  /// of elements and values are replaced by the current ones, and files of other simulators are
+  /// rewritten (scene_io/foreign.h).
   static std::unique_ptr<Document> open(const std::string& file, Faults& faults);
   /// Parses the text of a file like `open`; `name` is used as its file name.
   static std::unique_ptr<Document> parse(const std::string& text, const std::string& name,
@@ -131,6 +132,12 @@ class Document {
   std::string directory() const;
   /// Returns the root element.
   Element* root() { return xml_.RootElement(); }
+  /// Returns true if the file was written for another simulator; see scene_io/foreign.h.
+  bool foreign() const { return foreign_; }
+  /// Marks the file as written for another simulator.
+  void mark_foreign() { foreign_ = true; }
+  /// Replaces the root element, which is deleted, by `root`, an element of this document.
+  void replace_root(Element& root);
   /// Returns the number of XML elements that the document had when it was parsed.
   std::size_t elements() const { return elements_; }
   /// Returns the document as text in its current state, including comments.
@@ -146,6 +153,7 @@ class Document {
   std::set<std::string> other_files_;  ///< file names to which `places_` refers
   std::deque<Place> places_;  ///< positions of created elements, whose user data points here
   std::size_t elements_ = 0;  ///< number of elements in the parsed text
+  bool foreign_ = false;      ///< true: written for another simulator
 };
 
 /// Returns the path of an element such as "world/navvy:soil[loam]/cohesion_pa". Brackets contain

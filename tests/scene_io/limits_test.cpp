@@ -77,7 +77,8 @@ TEST(Limits, AFaultInASharedFileIsReportedOnce) {
   const std::string model = folder / "model.sdf";
   write_file_atomically(
       model,
-      std::string("<sdf version=\"1.9\"><model name=\"m\"><link name=\"a\"/></model></sdf>"));
+      std::string("<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><model name=\"m\"><link name=\"a\"/>"
+                  "</model></sdf>"));
   std::string machines;
   for (const char* name : {"a", "b", "c"})
     machines += "<include><uri>" + model + "</uri><name>" + name + "</name></include>";

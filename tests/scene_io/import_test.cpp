@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of other simulators: one small file for each trap that public worlds and robots hold.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "control/step_kinds.h"
+#include "core/error.h"
+#include "folder.h"
+#include "scene_io/loader.h"
+
+namespace navvy::scene_io {
+namespace {
+
+constexpr const char* kBall =
+    "<link name='b'><inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz>"
+    "</inertia></inertial><collision name='c'><geometry><sphere><radius>0.1</radius></sphere>"
+    "</geometry>@</collision></link>";
+
+/// Returns a link of 2 kg with `more` inside its collision.
+std::string ball(const std::string& more = "", const std::string& name = "b") {
+  std::string text = kBall;
+  text.replace(text.find("name='b'"), 8, "name='" + name + "'");
+  return text.replace(text.find('@'), 1, more);
+}
+
+std::string model(const std::string& inner, const std::string& name = "m") {
+  return "<model name='" + name + "'>\n" + inner + "\n</model>\n";
+}
+
+/// What a file gives: its content and all messages.
+struct Read {
+  std::optional<scene::Scene> world;
+  std::optional<scene::Machine> machine;
+  std::string messages;
+  std::size_t errors = 0, warnings = 0;
+};
+
+class Import : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) {
+    std::filesystem::create_directories(std::filesystem::path(folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  Read read(const std::string& name, const std::string& text, const Overrides& overrides = {}) {
+    Read out;
+    FaultCount count;
+    for (const Fault& fault : check(write(name, text), control::step_kinds(), &out.world, overrides,
+                                    &out.machine, &count))
+      out.messages += fault.text() + "\n";
+    out.errors = count.errors;
+    out.warnings = count.warnings;
+    return out;
+  }
+  Read read_world(const std::string& inner, const std::string& version = "1.6",
+                  const Overrides& overrides = {}) {
+    return read("world.sdf",
+                "<sdf version='" + version + "'>\n<world name='w'>\n" + inner + "</world></sdf>",
+                overrides);
+  }
+  Read read_robot(const std::string& inner) {
+    return read("robot.urdf", "<robot name='r'>\n" + inner + "</robot>");
+  }
+
+  test::Folder folder_;
+};
+
+std::string urdf_link(const std::string& name, const std::string& more = "") {
+  return "<link name='" + name +
+         "'><inertial><mass value='3'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+         "</inertial>" +
+         more + "</link>\n";
+}
+
+std::string urdf_joint(const std::string& name, const std::string& type, const std::string& parent,
+                       const std::string& child, const std::string& more = "") {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent +
+         "'/><child link='" + child + "'/>" + more + "</joint>\n";
+}
+
+TEST_F(Import, WorldOfAnyVersionWithoutSoilStandsOnFirmGround) {
+  for (const char* version : {"1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12"}) {
+    const Read got = read_world(model(ball()), version);
+    ASSERT_EQ(got.errors, 0u) << version << "\n" << got.messages;
+    EXPECT_EQ(got.warnings, 1u) << got.messages;
+    EXPECT_NE(got.messages.find("firm gravel (--soil NAME gives it another"), std::string::npos)
+        << got.messages;
+    EXPECT_EQ(got.world->soils.at(0).name, "gravel");
+    EXPECT_EQ(got.world->machines.at(0).machine.links.at(0).mass, 2);
+    EXPECT_FALSE(got.world->machines.at(0).on_ground);
+  }
+  EXPECT_NE(read_world(model(ball()), "2.0").messages.find("1.3 to 1.12"), std::string::npos);
+}
+
+TEST_F(Import, SoilAndSizeComeFromTheCommandLine) {
+  Overrides overrides;
+  overrides.soil = "loam";
+  overrides.size = Vec2(40, 30);
+  const Read got = read_world(model(ball()), "1.6", overrides);
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  EXPECT_EQ(got.warnings, 0u) << got.messages;
+  EXPECT_EQ(got.world->soils.at(0).name, "loam");
+  EXPECT_EQ(got.world->ground.size, Vec2(40, 30));
+}
+
+TEST_F(Import, WhatHasNoEffectIsSilent) {
+  const Read got = read_world(
+      "<gui/><scene/><wind/>" +
+          model(
+              "<self_collide>0</self_collide><enable_wind>false</enable_wind>"
+              "<link name='a'><gravity>true</gravity><kinematic>0</kinematic>"
+              "<velocity_decay><linear>0</linear></velocity_decay></link>" +
+              ball("<laser_retro>0</laser_retro><max_contacts>0</max_contacts><surface><bounce>"
+                   "<restitution_coefficient>0</restitution_coefficient></bounce><friction><ode>"
+                   "<mu>1</mu><mu2>1</mu2><fdir1>0 0 0</fdir1><slip1>0</slip1><slip2>0</slip2>"
+                   "</ode></friction></surface>") +
+              "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis>"
+              "<xyz>0 0 1</xyz><limit><lower>-1.79769e+308</lower><upper>1.8e308</upper><effort>-1"
+              "</effort><stiffness>1e8</stiffness><dissipation>1</dissipation></limit><dynamics>"
+              "<spring_reference>0</spring_reference><spring_stiffness>0</spring_stiffness>"
+              "</dynamics></axis></joint>"),
+      "1.6", [] {
+        Overrides soil;
+        soil.soil = "loam";
+        return soil;
+      }());
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  // The link `a` has no mass, and <gui> is no look; nothing else is worth a word.
+  EXPECT_EQ(got.warnings, 2u) << got.messages;
+  const scene::Machine& machine = got.world->machines.at(0).machine;
+  EXPECT_FALSE(machine.joints.at(0).has_limits);
+  EXPECT_EQ(machine.joints.at(0).effort, 1e9);
+}
+
+TEST_F(Import, MissingMassIsTheDefaultOfSdf) {
+  const Read got = read_world(model("<link name='a'/>"), "1.7");
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  const scene::Link& link = got.world->machines.at(0).machine.links.at(0);
+  EXPECT_EQ(link.mass, 1);
+  EXPECT_EQ(link.inertia, Mat3::Identity());
+  EXPECT_NE(got.messages.find("SDF's default of 1 kg"), std::string::npos) << got.messages;
+}
+
+TEST_F(Import, EachIgnoredKindIsReportedOnceWithItsNumber) {
+  std::string models;
+  for (const char* name : {"m1", "m2", "m3"})
+    models += model(ball() + "<plugin name='p' filename='f'/>", name);
+  const Read got = read_world(models);
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  EXPECT_EQ(got.warnings, 2u) << got.messages;
+  EXPECT_NE(got.messages.find("world.sdf:4: warning: world/model[m1]/plugin[p]"), std::string::npos)
+      << got.messages;
+  EXPECT_NE(got.messages.find("here and in 2 more places"), std::string::npos) << got.messages;
+}
+
+TEST_F(Import, WhatChangesTheMotionIsStillRefused) {
+  const Read got = read_world(model("<link name='a'><gravity>false</gravity></link>"), "1.6");
+  EXPECT_NE(got.messages.find("world.sdf:4: error: world/model[m]/link[a]/gravity: 'false'"),
+            std::string::npos)
+      << got.messages;
+}
+
+TEST_F(Import, StaticPlaneIsTheGround) {
+  const std::string plane =
+      "<static>1</static><pose>0 0 0.5 0 @ 0</pose><link name='l'><collision name='c'><geometry>"
+      "<plane><normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link>";
+  std::string level = plane, tilted = plane;
+  level.replace(level.find('@'), 1, "0");
+  tilted.replace(tilted.find('@'), 1, "0.1");
+  const Read flat = read_world(model(level, "plane") + model("<pose>0 0 2 0 0 0</pose>" + ball()));
+  ASSERT_EQ(flat.errors, 0u) << flat.messages;
+  EXPECT_EQ(flat.world->machines.size(), 1u);
+  EXPECT_EQ(flat.world->ground.surface, 0.5);
+  EXPECT_TRUE(flat.world->ground.features.empty());
+  const Read slope =
+      read_world(model(tilted, "plane") + model("<pose>0 0 2 0 0 0</pose>" + ball()));
+  ASSERT_EQ(slope.errors, 0u) << slope.messages;
+  // Turned about y by 0.1, the plane falls towards +x: its way up is -x.
+  EXPECT_NEAR(slope.world->ground.features.at(0).angle, 0.1, 1e-9);
+  EXPECT_NEAR(std::abs(slope.world->ground.features.at(0).yaw), kPi, 1e-9);
+}
+
+TEST_F(Import, AxesOfOldVersionsAreInTheFrameTheyMean) {
+  const std::string arm = model(
+      "<link name='a'/><link name='b'><pose>0 0 0 0 0 1.5707963267948966</pose></link>"
+      "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis>@"
+      "<xyz>1 0 0</xyz></axis></joint>");
+  const auto axis = [&](const std::string& version, const std::string& more) {
+    std::string text = arm;
+    const Read got = read_world(text.replace(text.find('@'), 1, more), version);
+    EXPECT_EQ(got.errors, 0u) << got.messages;
+    return got.world->machines.at(0).machine.joints.at(0).axis;
+  };
+  // The child is turned by 90 degrees: the model's x is minus its y.
+  EXPECT_LT((axis("1.4", "") - Vec3(0, -1, 0)).norm(), 1e-9);
+  EXPECT_LT((axis("1.6", "") - Vec3(1, 0, 0)).norm(), 1e-9);
+  EXPECT_LT(
+      (axis("1.6", "<use_parent_model_frame>1</use_parent_model_frame>") - Vec3(0, -1, 0)).norm(),
+      1e-9);
+  EXPECT_LT((axis("1.9", "") - Vec3(1, 0, 0)).norm(), 1e-9);
+}
+
+TEST_F(Import, LinksWithoutJointsAreBodiesOfTheirOwn) {
+  const Read got = read_world(model(ball("", "one") + ball("", "two")));
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  ASSERT_EQ(got.world->machines.size(), 2u);
+  EXPECT_EQ(got.world->machines[1].name, "m::two");
+  const Read fixed = read_world(model("<static>1</static>" + ball("", "one") + ball("", "two")));
+  ASSERT_EQ(fixed.errors, 0u) << fixed.messages;
+  EXPECT_EQ(fixed.world->machines.at(0).machine.links.size(), 2u);
+}
+
+TEST_F(Import, JointToTheWorldGetsAnAnchor) {
+  const Read got = read_world(
+      model(ball() + "<joint name='j' type='revolute'><parent>world</parent><child>b</child>"
+                     "<axis><xyz>0 0 1</xyz></axis></joint>"));
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  const scene::Machine& machine = got.world->machines.at(0).machine;
+  EXPECT_TRUE(machine.fixed_base);
+  EXPECT_EQ(machine.joints.at(0).type, scene::Joint::Type::kRevolute);
+}
+
+TEST_F(Import, PosesCountFromFramesOfTheWorld) {
+  const Read got = read_world("<frame name='f'><pose>1 2 0 0 0 1.5707963267948966</pose></frame>" +
+                                  model("<pose relative_to='f'>1 0 3 0 0 0</pose>" + ball()),
+                              "1.9");
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  EXPECT_LT((got.world->machines.at(0).X_WM.translation() - Vec3(1, 3, 3)).norm(), 1e-9);
+}
+
+TEST_F(Import, ModelOnAServerIsNamedAsSuch) {
+  const Read got = read_world("<include><uri>https://server/model</uri></include>");
+  EXPECT_NE(got.messages.find("world.sdf:3: error"), std::string::npos) << got.messages;
+  EXPECT_NE(got.messages.find("Navvy downloads nothing"), std::string::npos) << got.messages;
+}
+
+TEST_F(Import, ModelThatIncludesItselfIsRefused) {
+  const Read got = read("loop.sdf", "<sdf version='1.7'>\n<model name='m'>\n<include><uri>" +
+                                        (folder_ / "loop.sdf") + "</uri></include></model></sdf>");
+  EXPECT_NE(got.messages.find("loop.sdf:3: error"), std::string::npos) << got.messages;
+  EXPECT_NE(got.messages.find("a model cannot be a part of itself"), std::string::npos);
+}
+
+TEST_F(Import, RobotOfUrdfIsAMachine) {
+  const Read got = read_robot(
+      "<material name='red'><color rgba='1 0 0 1'/></material>" +
+      urdf_link("base",
+                "<visual><geometry><box size='1 2 3'/></geometry><material name='red'/>"
+                "</visual>") +
+      urdf_link("arm") + "<link name='tip'/><link name='root'/>" +
+      urdf_joint("on", "fixed", "root", "base", "<origin xyz='0 0 0.5'/>") +
+      urdf_joint("j", "revolute", "base", "arm",
+                 "<origin xyz='1 0 0' rpy='0 0 1.5707963267948966'/><axis xyz='0 1 0'/>"
+                 "<limit lower='-1' upper='2' effort='30' velocity='4'/><dynamics damping='5'/>") +
+      urdf_joint("end", "fixed", "arm", "tip", "<origin xyz='0 0 1'/>"));
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  const scene::Machine& machine = *got.machine;
+  ASSERT_EQ(machine.links.size(), 2u);
+  EXPECT_EQ(machine.links[0].name, "base");
+  EXPECT_EQ(machine.links[0].visuals.at(0).color.r, 1);
+  EXPECT_EQ(machine.links[0].visuals.at(0).color.g, 0);
+  // The frame of the massless root is that of the machine.
+  EXPECT_LT((machine.links[0].X_ML.translation() - Vec3(0, 0, 0.5)).norm(), 1e-12);
+  EXPECT_LT((machine.links[1].X_ML.translation() - Vec3(1, 0, 0.5)).norm(), 1e-12);
+  EXPECT_LT((machine.links[1].X_ML.linear() * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-12);
+  const scene::Joint& joint = machine.joints.at(0);
+  EXPECT_EQ(joint.axis, Vec3::UnitY());
+  EXPECT_EQ(joint.lower, -1);
+  EXPECT_EQ(joint.upper, 2);
+  EXPECT_EQ(joint.effort, 30);
+  EXPECT_EQ(joint.damping, 5);
+}
+
+TEST_F(Import, RobotAloneRunsAsASceneThatItStandsIn) {
+  const std::string file = write(
+      "stand.urdf",
+      "<robot name='r'>" +
+          urdf_link("base", "<collision><geometry><sphere radius='0.3'/></geometry></collision>") +
+          "</robot>");
+  std::string resolved;
+  const scene::Scene world = load_scene(file, control::step_kinds(), {}, &resolved);
+  ASSERT_EQ(world.machines.size(), 1u);
+  EXPECT_EQ(world.name, "stand");
+  EXPECT_NEAR(world.machines[0].X_WM.translation().z(), 0.3, 1e-12);
+  EXPECT_EQ(world.cameras.size(), 1u);
+  // The run's folder holds the scene as our own, which gives the same machine.
+  const scene::Scene again =
+      load_scene_from_string(resolved, folder_ / "again.sdf", control::step_kinds());
+  EXPECT_EQ(again.machines.at(0).machine.links.at(0).mass, 3);
+  EXPECT_EQ(again.soils.at(0).name, "gravel");
+}
+
+TEST_F(Import, RootNamedWorldHoldsTheRobot) {
+  const Read got = read_robot("<link name='world'/>" + urdf_link("base") +
+                              urdf_joint("on", "fixed", "world", "base"));
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  EXPECT_TRUE(got.machine->fixed_base);
+}
+
+TEST_F(Import, BadRobotsAreRefusedWithLineValueAndRemedy) {
+  const auto expect = [&](const std::string& inner, const std::vector<std::string>& fragments) {
+    const Read got = read_robot(inner);
+    EXPECT_GT(got.errors, 0u);
+    for (const std::string& fragment : fragments)
+      EXPECT_NE(got.messages.find(fragment), std::string::npos) << fragment << "\nnot in\n"
+                                                                << got.messages;
+  };
+  expect(urdf_link("a") + urdf_link("b"),
+         {"robot.urdf:3: error", "'b'", "one root link, here 'a'", "type fixed"});
+  expect(urdf_link("a") + urdf_link("b") + urdf_joint("j", "fixed", "a", "b") +
+             urdf_joint("k", "fixed", "b", "a"),
+         {"robot.urdf:1: error", "form a loop", "remove the joint"});
+  expect(urdf_link("a") + urdf_link("b") + urdf_link("c") + urdf_joint("j", "fixed", "a", "b") +
+             urdf_joint("k", "fixed", "a", "c") + urdf_joint("l", "fixed", "c", "b"),
+         {"robot.urdf:7: error", "'b'", "child of one joint only", "closing row"});
+  expect(urdf_link("a") + urdf_joint("j", "fixed", "a", "aa"), {"robot.urdf:3: error", "'aa'"});
+  expect("<xacro:macro name='x'/>", {"robot.urdf:2: error", "xacro that was not expanded"});
+  expect(urdf_link("a",
+                   "<visual><geometry><mesh filename='$(optenv HOME)/a.stl'/></geometry>"
+                   "</visual>"),
+         {"robot.urdf:2: error", "$(optenv ...)", "run `xacro FILE"});
+  expect(urdf_link("${name}"), {"robot.urdf:2: error", "${...}"});
+  expect("", {"robot.urdf:1: error", "needs at least one <link>"});
+}
+
+TEST_F(Import, PackagesAreFoundAboveTheFileAndOnTheSearchPath) {
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
+  write("near_pack/meshes/a.obj", mesh);
+  write("elsewhere/far_pack/a.obj", mesh);
+  const auto robot = [&](const std::string& uri) {
+    return read("near_pack/urdf/r.urdf", "<robot name='r'>" +
+                                             urdf_link("a", "<visual><geometry><mesh filename='" +
+                                                                uri + "'/></geometry></visual>") +
+                                             "</robot>");
+  };
+  EXPECT_EQ(robot("package://near_pack/meshes/a.obj").errors, 0u);
+  const Read missing = robot("package://far_pack/a.obj");
+  EXPECT_NE(missing.messages.find("set NAVVY_MODEL_PATH to the folder that holds 'far_pack'"),
+            std::string::npos)
+      << missing.messages;
+  ::setenv("NAVVY_MODEL_PATH", (folder_ / "elsewhere").c_str(), 1);
+  EXPECT_EQ(robot("package://far_pack/a.obj").errors, 0u);
+  ::unsetenv("NAVVY_MODEL_PATH");
+}
+
+}  // namespace
+}  // namespace navvy::scene_io
