@@ -13,7 +13,9 @@
 NAVVY_FUZZ_TARGET(world);
 NAVVY_FUZZ_TARGET(machine);
 NAVVY_FUZZ_TARGET(set);
+NAVVY_FUZZ_TARGET(urdf);
 NAVVY_FUZZ_TARGET(obj);
+NAVVY_FUZZ_TARGET(mesh);
 NAVVY_FUZZ_TARGET(terrain);
 NAVVY_FUZZ_TARGET(npy);
 NAVVY_FUZZ_TARGET(landxml);
@@ -34,6 +36,8 @@ void replay(const std::string& target, int (*run)(const std::uint8_t*, std::size
 TEST(FuzzCorpus, WorldReplaysWithoutFailure) { replay("world", fuzz_world); }
 TEST(FuzzCorpus, MachineReplaysWithoutFailure) { replay("machine", fuzz_machine); }
 TEST(FuzzCorpus, SetReplaysWithoutFailure) { replay("set", fuzz_set); }
+TEST(FuzzCorpus, UrdfReplaysWithoutFailure) { replay("urdf", fuzz_urdf); }
+TEST(FuzzCorpus, MeshReplaysWithoutFailure) { replay("mesh", fuzz_mesh); }
 TEST(FuzzCorpus, ObjReplaysWithoutFailure) { replay("obj", fuzz_obj); }
 TEST(FuzzCorpus, TerrainReplaysWithoutFailure) { replay("terrain", fuzz_terrain); }
 TEST(FuzzCorpus, NpyReplaysWithoutFailure) { replay("npy", fuzz_npy); }
