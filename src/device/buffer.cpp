@@ -27,6 +27,7 @@ struct RawBuffer::Memory {
   std::uint64_t number = 0;
 
   Memory(std::shared_ptr<Device::State> owner, std::size_t bytes) : device(std::move(owner)) {
+    require_no_fork();
     // Memory that host and device share is allocated where both reach it, so that mapping copies
     // nothing.
     const cl_mem_flags flags =
@@ -34,7 +35,7 @@ struct RawBuffer::Memory {
     cl_int code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
     // A CPU driver would over-commit and be killed for it later, so the total is limited here.
     if (bytes <= device->info.memory && device->memory_used <= device->info.memory - bytes)
-      memory = clCreateBuffer(device->context, flags, bytes, nullptr, &code);
+      memory = clCreateBuffer(device->shared->context(), flags, bytes, nullptr, &code);
     if (code != CL_SUCCESS) {
       throw DeviceError(
           "clCreateBuffer of " + std::to_string(bytes) + " bytes failed: " + error_name(code) +
@@ -51,7 +52,7 @@ struct RawBuffer::Memory {
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
   ~Memory() {
-    clReleaseMemObject(memory);
+    if (!device->shared->abandoned()) clReleaseMemObject(memory);
     // Queued commands may still use the memory; the driver releases it after the last of them.
     device->memory_used -= size;
   }
@@ -83,6 +84,7 @@ void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
 
 void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, bool wait) {
   if (bytes == 0) return;
+  require_no_fork();
   // With `wait` the driver has taken its copy of the data on return. Earlier work need not be done,
   // so the notice of a slow compilation stays.
   const Device::State& device = *memory_->device;
@@ -93,6 +95,7 @@ void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, b
 
 void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   if (bytes == 0) return;
+  require_no_fork();
   Device::State& device = *memory_->device;
   const LongWork work("the OpenCL driver was busy or did not answer");
   check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr,
@@ -106,6 +109,7 @@ void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
 void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset,
                      std::size_t bytes) {
   if (bytes == 0) return;
+  require_no_fork();
   const Device::State& device = *memory_->device;
   const bool power_of_two = (pattern_bytes & (pattern_bytes - 1)) == 0;
   if (power_of_two && pattern_bytes <= 128) {
@@ -125,6 +129,7 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
 }
 
 void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool wait) const {
+  require_no_fork();
   Device::State& device = *memory_->device;
   const cl_map_flags flags = access == Access::kRead ? CL_MAP_READ : CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
@@ -138,6 +143,7 @@ void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool 
 }
 
 void RawBuffer::unmap(void* at) const noexcept {
+  if (memory_->device->shared->abandoned()) return;
   // A failure appears at the next call on the queue; a destructor must not throw.
   clEnqueueUnmapMemObject(memory_->device->queue, memory_->memory, at, 0, nullptr, nullptr);
 }

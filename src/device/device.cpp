@@ -138,6 +138,7 @@ std::vector<Found> find_devices_once() {
   // platform starts.
   prepare_kernel_cache();
   std::vector<Found> found;
+  opencl_has_started();
   cl_uint platform_count = 0;
   if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0)
     return found;
@@ -170,6 +171,8 @@ std::vector<Found> find_devices_once() {
 /// Returns the devices of all platforms. They are found once in a process: a platform keeps its
 /// devices, and PoCL 3.1 shows them to a second thread before they have their names.
 std::vector<Found> find_devices() {
+  // A lock that another thread held at the fork would stay locked in the child.
+  require_no_fork();
   static std::mutex first;
   static std::vector<Found> found;
   const std::lock_guard<std::mutex> alone(first);
@@ -264,16 +267,16 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 Device::State::~State() {
-  if (lost) return;
+  if (shared == nullptr || shared->abandoned()) return;
   // Buffers, programs and kernels hold the state, so none of them is alive here. Queued work is
   // waited for, since releasing a queue does not wait.
   if (queue != nullptr) clFinish(queue);
   for (auto& [name, event] : events) clReleaseEvent(event);
   for (cl_command_queue one : queues)
     if (one != nullptr) clReleaseCommandQueue(one);
-  if (context != nullptr) clReleaseContext(context);
   // Seals now, in case the process is killed later: compiled kernels are then not compiled again.
-  seal_kernel_cache();
+  // That reads the whole folder, so it is done only if there is something new.
+  if (shared->take_news()) seal_kernel_cache();
 }
 
 void Device::State::open_queues() {
@@ -282,16 +285,18 @@ void Device::State::open_queues() {
   for (std::size_t i = 0; i < kDrivers; ++i) {
     if (queues[i] != nullptr) clReleaseCommandQueue(queues[i]);
     queues[i] = nullptr;
-    if (drivers[i] == nullptr) continue;
+    const cl_device_id driver_of_queue = shared->driver(i);
+    if (driver_of_queue == nullptr) continue;
     cl_int code = CL_SUCCESS;
-    queues[i] =
-        clCreateCommandQueue(context, drivers[i], profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
+    queues[i] = clCreateCommandQueue(shared->context(), driver_of_queue,
+                                     profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     check(code, "clCreateCommandQueue", *this);
   }
   queue = queues[driver];
 }
 
 void Device::State::finish() {
+  require_no_fork();
   const LongWork work("the OpenCL driver was busy or did not answer");
   check(clFinish(queue), "clFinish", *this);
   compiling.reset();
@@ -346,14 +351,8 @@ Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   const Found& pick = found[static_cast<std::size_t>(index)];
   state_->info = pick.info;
   state_->info.memory = allowed_memory(pick.info.memory);
-  state_->drivers[0] = pick.device;
-  state_->drivers[1] = pick.caller;
-  // Without a named platform, the meaning of a context is up to the driver.
-  const cl_context_properties properties[] = {
-      CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(pick.platform), 0};
   cl_int code = CL_SUCCESS;
-  state_->context = clCreateContext(properties, pick.caller != nullptr ? 2 : 1, state_->drivers,
-                                    nullptr, nullptr, &code);
+  state_->shared = SharedContext::of(pick.platform, {pick.device, pick.caller}, code);
   check(code, "clCreateContext", *state_);
   state_->open_queues();
 }
@@ -366,7 +365,7 @@ const DeviceInfo& Device::info() const { return state_->info; }
 std::uint64_t Device::memory_used() const { return state_->memory_used; }
 void Device::finish() { state_->finish(); }
 
-bool Device::has_caller_driver() const { return state_->drivers[1] != nullptr; }
+bool Device::has_caller_driver() const { return state_->shared->driver(1) != nullptr; }
 
 void Device::run_in_caller(bool on) {
   const std::size_t wanted = on && has_caller_driver() ? 1 : 0;

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -471,6 +472,9 @@ ProcessCache& process_cache() {
 const KernelCacheStatus& prepare_kernel_cache() { return process_cache().status; }
 
 void seal_kernel_cache() noexcept {
+  // Devices of several threads may end at the same time.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> alone(one_at_a_time);
   if (process_cache().cache) process_cache().cache->seal();
 }
 

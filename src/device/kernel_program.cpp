@@ -18,16 +18,10 @@ struct KernelProgram::State {
   std::string name;
   // Expanded source and compiler options, kept for the driver that has not been used yet.
   std::string source, flags;
-  // One per driver, built when it is first needed: most runs use one driver only.
+  // One per driver, found when it is first needed: most runs use one driver only. They belong to
+  // the context.
   cl_program programs[kDrivers] = {};
 
-  State() = default;
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() {
-    for (cl_program program : programs)
-      if (program != nullptr && !device->lost) clReleaseProgram(program);
-  }
   /// Returns the program for the driver in use, and builds it if necessary.
   /// @throws DeviceError with options and build log
   cl_program built();
@@ -58,7 +52,7 @@ struct Kernel::State {
   State& operator=(const State&) = delete;
   ~State() {
     for (cl_kernel kernel : kernels)
-      if (kernel != nullptr && !program->device->lost) clReleaseKernel(kernel);
+      if (kernel != nullptr && !program->device->shared->abandoned()) clReleaseKernel(kernel);
   }
   /// Returns the kernel for the driver in use, and creates it if necessary.
   cl_kernel made();
@@ -80,7 +74,7 @@ std::unique_ptr<SlowCall> log_if_slow(const Device::State& device, const std::st
 
 /// Returns the build log without trailing zeros and empty lines, which would split an error's text.
 std::string build_log(cl_program program, const Device::State& device) {
-  const cl_device_id driver = device.drivers[device.driver];
+  const cl_device_id driver = device.shared->driver(device.driver);
   std::size_t size = 0;
   if (clGetProgramBuildInfo(program, driver, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS)
     return "";
@@ -96,21 +90,42 @@ std::string build_log(cl_program program, const Device::State& device) {
 /// Builds a program for the driver in use. Compilers are written in C++ and allocate with `new`:
 /// when out of memory they throw through the driver's C code, which then keeps its locks for ever.
 /// All objects of the driver are then given up, since releasing any program would wait for a lock.
-cl_int build_or_give_up(KernelProgram::State& state) {
-  Device::State& device = *state.device;
-  cl_program& program = state.programs[device.driver];
+cl_int build_or_give_up(const KernelProgram::State& state, cl_program program) {
+  const Device::State& device = *state.device;
+  const cl_device_id driver = device.shared->driver(device.driver);
   const LongWork work("the OpenCL driver was busy compiling kernels");
   try {
-    return clBuildProgram(program, 1, &device.drivers[device.driver], state.flags.c_str(), nullptr,
-                          nullptr);
+    return clBuildProgram(program, 1, &driver, state.flags.c_str(), nullptr, nullptr);
   } catch (const std::exception& error) {
-    program = nullptr;
-    device.lost = true;
+    device.shared->lose();
     throw DeviceError("the OpenCL driver threw an exception (" + std::string(error.what()) +
                           ") while building kernels/" + state.name +
                           "; check whether the machine is out of memory",
                       CL_OUT_OF_HOST_MEMORY);
   }
+}
+
+/// Builds the program of `state` for the driver in use.
+/// @throws DeviceError with options and build log.
+cl_program build_program(const KernelProgram::State& state) {
+  const Device::State& device = *state.device;
+  const char* data = state.source.c_str();
+  const std::size_t size = state.source.size();
+  cl_int code = CL_SUCCESS;
+  const cl_program program =
+      clCreateProgramWithSource(device.shared->context(), 1, &data, &size, &code);
+  check(code, "clCreateProgramWithSource", device, state.name);
+  // The notice ends with this scope, also when the build fails.
+  const auto slow = log_if_slow(device, "kernels/" + state.name);
+  code = build_or_give_up(state, program);
+  if (code == CL_SUCCESS) return program;
+  const std::string log = build_log(program, device);
+  // Not kept: a later launch would report the missing machine code instead of the log.
+  clReleaseProgram(program);
+  throw DeviceError("kernels/" + state.name + " does not build: " + error_name(code) +
+                        ", on device " + device.info.name + ", options: " + state.flags + "\n" +
+                        log,
+                    code);
 }
 
 /// Builds a program from a text.
@@ -131,25 +146,13 @@ std::shared_ptr<KernelProgram::State> build(Device& device, const std::string& n
 
 }  // namespace
 
+// Worlds of one process share their programs: building them takes ten times as long as all else.
 cl_program KernelProgram::State::built() {
   cl_program& program = programs[device->driver];
-  if (program != nullptr) return program;
-  const char* data = source.c_str();
-  const std::size_t size = source.size();
-  cl_int code = CL_SUCCESS;
-  program = clCreateProgramWithSource(device->context, 1, &data, &size, &code);
-  check(code, "clCreateProgramWithSource", *device, name);
-  // The notice ends with this scope, also when the build fails.
-  const auto slow = log_if_slow(*device, "kernels/" + name);
-  code = build_or_give_up(*this);
-  if (code != CL_SUCCESS) {
-    const std::string log = build_log(program, *device);
-    // Not kept: a later launch would report the missing machine code instead of the log.
-    clReleaseProgram(program);
-    program = nullptr;
-    throw DeviceError("kernels/" + name + " does not build: " + error_name(code) + ", on device " +
-                          device->info.name + ", options: " + flags + "\n" + log,
-                      code);
+  if (program == nullptr) {
+    require_no_fork();
+    const std::string key = std::to_string(device->driver) + '\n' + flags + '\n' + source;
+    program = device->shared->program(key, [this] { return build_program(*this); });
   }
   return program;
 }
@@ -199,7 +202,7 @@ Kernel::Kernel(const KernelProgram& program, const std::string& name)
   check(clGetKernelInfo(kernel, CL_KERNEL_NUM_ARGS, sizeof state_->count, &state_->count, nullptr),
         "clGetKernelInfo", device, name);
   state_->arguments.resize(state_->count);
-  check(clGetKernelWorkGroupInfo(kernel, device.drivers[device.driver],
+  check(clGetKernelWorkGroupInfo(kernel, device.shared->driver(device.driver),
                                  CL_KERNEL_COMPILE_WORK_GROUP_SIZE, sizeof state_->group,
                                  state_->group, nullptr),
         "clGetKernelWorkGroupInfo", device, name);
@@ -282,6 +285,7 @@ void Kernel::enqueue_groups(std::size_t groups) {
 
 void Kernel::launch(const WorkSize& global, const std::size_t* local) {
   if (global.n[0] == 0 || global.n[1] == 0 || global.n[2] == 0) return;
+  require_no_fork();
   Device::State& device = *state_->program->device;
   const cl_kernel kernel = state_->made();
   // After a change of the driver its kernel may lack arguments that were set before. Those that
@@ -292,8 +296,10 @@ void Kernel::launch(const WorkSize& global, const std::size_t* local) {
   // The driver may compile machine code at the first launch instead of at the build; the notice
   // ends at the next wait.
   bool& launched = state_->launched[device.driver];
-  if (!launched && !device.compiling)
-    device.compiling = log_if_slow(device, "kernel " + state_->name);
+  if (!launched) {
+    device.shared->note_launch(state_->program->built(), state_->name);
+    if (!device.compiling) device.compiling = log_if_slow(device, "kernel " + state_->name);
+  }
   launched = true;
   const LongWork work("the OpenCL driver was busy compiling or starting a kernel");
   // With fewer axes a driver may choose better work-groups.

@@ -12,31 +12,26 @@
 #include <utility>
 #include <vector>
 
+#include "device/context_private.h"
 #include "device/device.h"
+#include "device/process_fork.h"
 #include "device/slow_call.h"
 
 namespace navvy::device {
 
-/// Number of drivers that may run the kernels of a Device: one with worker threads (index 0), and
-/// one that runs them in the caller's thread (index 1).
-inline constexpr std::size_t kDrivers = 2;
-
-/// OpenCL objects of a Device; the queues are released before the context.
+/// OpenCL objects of a Device: the context that it shares, and queues of its own, which are
+/// released before the context.
 struct Device::State {
   DeviceInfo info;  ///< properties of the device
-  /// OpenCL handles; null until the constructor of Device has created them. `drivers[1]` and its
-  /// queue stay null on platforms without a driver for the caller's thread.
-  cl_device_id drivers[kDrivers] = {};
-  cl_context context = nullptr;
+  /// Context and kernel programs; null until the constructor of Device has found them.
+  std::shared_ptr<SharedContext> shared;
+  /// One queue per driver of the context; null for a driver that it lacks.
   cl_command_queue queues[kDrivers] = {};
   std::size_t driver = 0;            ///< index of the driver in use
   cl_command_queue queue = nullptr;  ///< its queue, one of `queues`
   bool profiling = false;            ///< true: kernel times are recorded
-  /// True after the driver has thrown an exception. The driver then still holds its locks, so no
-  /// OpenCL object is released any more.
-  bool lost = false;
-  std::uint64_t memory_used = 0;   ///< memory of all buffers [bytes]
-  std::uint64_t buffers_made = 0;  ///< number of allocations so far, which numbers each of them
+  std::uint64_t memory_used = 0;     ///< memory of all buffers [bytes]
+  std::uint64_t buffers_made = 0;    ///< number of allocations so far, which numbers each of them
   /// Kernel name and event of each launch whose time has not been added to `times`. Events use
   /// memory of the driver, so the list is emptied at every wait and when it becomes long.
   std::vector<std::pair<std::string, cl_event>> events;
@@ -49,7 +44,7 @@ struct Device::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State();
-  /// Creates the queues in `context`, with event timing if `profiling` is true.
+  /// Creates the queues in the context, with event timing if `profiling` is true.
   void open_queues();
   /// Waits for the queue, removes the notice of a slow compilation and collects the events.
   void finish();

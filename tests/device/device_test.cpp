@@ -3,14 +3,18 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "device/buffer.h"
 #include "device/kernel_program.h"
+#include "device/programs_built.h"
 
 namespace navvy::device {
 namespace {
@@ -93,6 +97,53 @@ TEST(DeviceDeathTest, NamesPackagesToInstallWithoutAPlatform) {
   };
   EXPECT_EXIT(without_platform(), testing::ExitedWithCode(3),
               "no OpenCL device: .*apt-get install pocl-opencl-icd");
+}
+
+TEST(Device, SharesProgramsWithOtherDevicesOfItsDrivers) {
+  const std::string text = "kernel void set(global int* x, int value) { x[0] = value; }";
+  Device first, second;
+  const std::uint64_t before = programs_built();
+  const KernelProgram program = KernelProgram::from_text(first, "set", text);
+  const KernelProgram same = KernelProgram::from_text(second, "set", text);
+  EXPECT_EQ(programs_built(), before + 1);
+  KernelProgram::from_text(second, "set", text, {define("N", 1)});
+  EXPECT_EQ(programs_built(), before + 2) << "other options make another program";
+  // Each device has its own queue, and kernels of one program keep their own arguments.
+  Buffer<int> x(first, 1), y(second, 1);
+  Kernel one(program, "set"), two(same, "set");
+  one.args(x, 1);
+  two.args(y, 2).enqueue(1);
+  one.enqueue(1);
+  EXPECT_EQ(x.read(), std::vector<int>{1});
+  EXPECT_EQ(y.read(), std::vector<int>{2});
+}
+
+TEST(Device, IsRefusedInAForkedProcess) {
+  Device device;
+  Buffer<int> x(device, 1);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    // Every call would wait for threads of the driver that this process does not have.
+    int refused = 0;
+    const auto refuse = [&](const auto& call) {
+      try {
+        call();
+      } catch (const DeviceError& error) {
+        refused += std::string(error.what()).find("spawn") != std::string::npos ? 1 : 0;
+      }
+    };
+    refuse([] { Device again; });
+    refuse([&] { x.read(); });
+    refuse([&] { device.finish(); });
+    refuse([&] { Buffer<int> more(device, 1); });
+    ::_exit(refused);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  x.fill(3);
+  EXPECT_EQ(x.read(), std::vector<int>{3});
 }
 
 TEST(Device, SumsKernelTimesByNameOnlyWhileProfiling) {
