@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,6 +22,11 @@ struct Channel {
   /// Index in scene::Scene::machines of the machine that the channel commands; -1 if it commands
   /// none.
   int machine = -1;
+  /// Bounds of an input, in its unit; infinite for outputs and for inputs without bounds.
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  /// True: a value beyond the bounds acts like the nearer bound. False: it is refused.
+  bool clamped = false;
 };
 
 /// List of channels in which each channel has a function that sets or reads its value. Names are
@@ -71,9 +77,13 @@ class Inputs : public ChannelList<std::function<void(double)>> {
   /// Returns the index of the input with this name.
   /// @throws InputError if there is none; the message names the most similar input.
   int index(const std::string& name) const;
+  /// Checks that the input with the index `input` takes `value`; changes nothing.
+  /// @throws InputError as `set` does.
+  void require(int input, double value) const;
   /// Sets the input with the index `input` to `value`, in the unit of the input. Costs one function
   /// call.
-  /// @throws InputError for a value that is not finite or an index that does not exist.
+  /// @throws InputError for a value that is not finite or beyond the bounds of an input that does
+  /// not clamp it, and for an index that does not exist.
   void set(int input, double value);
   /// Sets the input called `name` to `value`, in the unit of the input. Searches for the name in
   /// each call.

@@ -191,6 +191,29 @@ TEST_F(ControllerChannels, LeversMoveTheArmByTheMachinesControlPattern) {
   }
 }
 
+TEST_F(ControllerChannels, LeversBeyondTheirBoundsAreRefused) {
+  World world(testing::load("trench.sdf"), device_);
+  const sim::Inputs& inputs = world.inputs();
+  const Channel& lever = inputs[static_cast<std::size_t>(inputs.index("excavator/levers/left_y"))];
+  EXPECT_EQ(lever.low, -1);
+  EXPECT_EQ(lever.high, 1);
+  try {
+    world.inputs().set(lever.name, 55);
+    FAIL() << "a lever of 55 was taken";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "error: excavator/levers/left_y: value '55': must be from -1 to 1 (unit 1) (send a "
+        "value within the bounds of the input)");
+  }
+  world.inputs().set(lever.name, 1 + 1e-9);
+  // A joint uses its limit instead, and says so in the log.
+  const int boom = inputs.index("excavator/boom_joint/velocity");
+  EXPECT_TRUE(inputs[static_cast<std::size_t>(boom)].clamped);
+  EXPECT_LT(inputs[static_cast<std::size_t>(boom)].high, 10);
+  world.inputs().set(boom, 1000);
+}
+
 TEST_F(ControllerChannels, BrakesHoldJointsUntilReleased) {
   World world(testing::load("trench.sdf"), device_);
   const auto get = [&](const char* name) {

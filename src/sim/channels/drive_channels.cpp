@@ -132,11 +132,11 @@ void add_drive_channels(const MachineChannels& out) {
       {out.prefix + "drive/steer", scene::steer_unit(built.drive),
        scene::steer_meaning(built.drive), out.machine.index()},
       [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
-  out.inputs.add(
-      {out.prefix + "drive/brake", "1", "1 sets the brakes, 0 releases them", out.machine.index()},
-      [change](double v) {
-        change([v](vehicle::DriveInput& command) { command.brake = v != 0; });
-      });
+  out.inputs.add({out.prefix + "drive/brake", "1", "1 sets the brakes, 0 releases them",
+                  out.machine.index(), 0, 1, true},
+                 [change](double v) {
+                   change([v](vehicle::DriveInput& command) { command.brake = v != 0; });
+                 });
   if (const scene::CombustionEngine* engine = scene::drive_engine(built.drive))
     add_gear(out, *engine);
 }

@@ -16,9 +16,10 @@ void add_encoder_channels(const MachineChannels& out) {
     const std::string bits = std::to_string(encoder->about().bits);
     out.outputs.add({base + "counts", "1", "register of the encoder, wraps at 2^" + bits},
                     [encoder] { return static_cast<double>(encoder->counts()); });
-    out.inputs.add({base + "encoder_slip", "1", "slip added to the counts, -0.9 to 0.9"},
-                   [encoder](double slip) { encoder->set_slip(slip); });
-    out.inputs.add({base + "encoder_missed", "1", "share of lost counts, 0 to 1"},
+    out.inputs.add(
+        {base + "encoder_slip", "1", "slip added to the counts, -0.9 to 0.9", -1, -0.9, 0.9},
+        [encoder](double slip) { encoder->set_slip(slip); });
+    out.inputs.add({base + "encoder_missed", "1", "share of lost counts, 0 to 1", -1, 0, 1},
                    [encoder](double share) { encoder->set_missed(share); });
   }
 }

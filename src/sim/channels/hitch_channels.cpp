@@ -16,7 +16,8 @@ void add_hitch_channels(const ChannelLists& out) {
     const std::string base =
         world.machines().at(hitches[i].child).name() + "/" + hitches[i].name + "/";
     out.inputs.add(
-        {base + "closed", "1", "0 opens, 1 closes if the eye is within 0.1 m of the hook"},
+        {base + "closed", "1", "0 opens, 1 closes if the eye is within 0.1 m of the hook", -1, 0, 1,
+         true},
         [&world, hitch](double closed) { world.commands().set_hitch(hitch, closed != 0); });
     out.outputs.add({base + "closed", "1", "1 while it is closed"},
                     [&world, hitch] { return world.machines().hitch(hitch).closed ? 1.0 : 0.0; });

@@ -32,7 +32,7 @@ void add_lever_channels(const MachineChannels& out) {
     const double sign = functions[i].sign, band = built.levers.dead_band;
     out.inputs.add({out.prefix + "levers/" + vehicle::kLeverNames[i], "1",
                     "-1 to 1, positive " + direction + "; opens the valve of " + joint.name(),
-                    out.machine.index()},
+                    out.machine.index(), -1, 1},
                    [&world = out.world, joint, sign, band](double lever) {
                      const double opening = sign * vehicle::lever_opening(lever, band);
                      world.commands().set(joint, {vehicle::JointMode::kOpening, opening});

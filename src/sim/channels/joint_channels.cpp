@@ -62,9 +62,9 @@ void add_motion(const MachineChannels& out, const Joint& joint, const JointHandl
       {"effort", linear ? "N" : "N m", JointMode::kEffort, {-joint.effort, joint.effort}}};
   const std::string base = out.prefix + joint.name + "/";
   for (const JointChannel& each : channels)
-    out.inputs.add(
-        {base + each.name, each.unit, "target; setting it selects this mode", out.machine.index()},
-        joint_input(out.world, handle, each, base + each.name));
+    out.inputs.add({base + each.name, each.unit, "target; setting it selects this mode",
+                    out.machine.index(), each.range.lower, each.range.upper, true},
+                   joint_input(out.world, handle, each, base + each.name));
   out.outputs.add({base + "position", channels[0].unit, "joint position"},
                   [handle] { return handle.position(); });
   out.outputs.add({base + "velocity", channels[1].unit, "joint velocity"},
@@ -88,7 +88,7 @@ void add_joint_channels(const MachineChannels& out) {
     if (joint.brake > 0) {
       out.inputs.add(
           {base + "brake", "1", "1 holds the joint against any command, 0 releases it",
-           out.machine.index()},
+           out.machine.index(), 0, 1, true},
           [&world = out.world, handle](double on) { world.commands().set_brake(handle, on != 0); });
       out.outputs.add({base + "brake", "1", "1 while its brake is set"},
                       [handle] { return handle.state().braked ? 1.0 : 0.0; });
