@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -306,8 +305,8 @@ void Session::set(int input, double value) {
   const sim::Inputs& inputs = state_->world.inputs();
   // A value that the world refuses takes no machine from its program, and neither does an input
   // that belongs to no machine.
-  if (input >= 0 && static_cast<std::size_t>(input) < inputs.size() && std::isfinite(value))
-    state_->take_over(inputs[static_cast<std::size_t>(input)].machine);
+  inputs.require(input, value);
+  state_->take_over(inputs[static_cast<std::size_t>(input)].machine);
   state_->world.inputs().set(input, value);
 }
 void Session::set(const std::string& input, double value) {
@@ -471,18 +470,27 @@ struct SnapshotContent {
 
 }  // namespace
 
-void Session::save(const std::string& path) const {
-  // The content is complete in memory before the file is replaced. Saving only reads the session.
+std::vector<char> Session::snapshot() const {
+  // Saving only reads the session.
   const SnapshotContent content{{world().start(), world().description().name},
                                 const_cast<Session&>(*this)};
-  write_file_atomically(path, seal(saved(content)));
+  return seal(saved(content));
+}
+
+void Session::restore(const std::vector<char>& bytes, bool anyway) {
+  SnapshotContent content{{world().start(), world().description().name, anyway}, *this};
+  load_saved(unseal(bytes), content);
+}
+
+void Session::save(const std::string& path) const {
+  // The content is complete in memory before the file is replaced.
+  write_file_atomically(path, snapshot());
 }
 
 void Session::load(const std::string& path, bool anyway) {
   const std::vector<char> bytes = read_file(path);
   try {
-    SnapshotContent content{{world().start(), world().description().name, anyway}, *this};
-    load_saved(unseal(bytes), content);
+    restore(bytes, anyway);
   } catch (const InputError& error) {
     Fault fault = error.faults().front();
     fault.file = path;

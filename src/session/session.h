@@ -144,6 +144,10 @@ class Session {
   /// reading fails; InputError that names a damaged or differing part, after which the session can
   /// only be loaded again or destroyed.
   void load(const std::string& path, bool anyway = false);
+  /// Returns the bytes that `save` writes to a file.
+  std::vector<char> snapshot() const;
+  /// Loads the bytes of a snapshot; checks and @throws as `load` does, without the name of a file.
+  void restore(const std::vector<char>& bytes, bool anyway = false);
 
  private:
   /// Returns true if the scene's duration has elapsed.

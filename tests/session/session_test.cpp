@@ -141,6 +141,17 @@ TEST_F(SessionTest, ARefusedCommandDoesNotStopTheProgram) {
   EXPECT_EQ(session->phase(0), phase);
 }
 
+TEST_F(SessionTest, AnInputBeyondItsBoundsDoesNotStopTheProgram) {
+  const auto session = make(load("two_excavators.sdf"));
+  run_to(*session, 0.2);
+  const std::string phase = session->phase(0);
+  const std::string machine = session->world().description().machines.at(0).name;
+  EXPECT_THROW(session->set(machine + "/levers/left_y", 55), InputError);
+  EXPECT_EQ(session->phase(0), phase);
+  session->set(machine + "/levers/left_y", 1);
+  EXPECT_EQ(session->phase(0), "inputs");
+}
+
 TEST_F(SessionTest, AnInputEndsOnlyTheProgramOfItsMachine) {
   // Both excavators drive and dig; the first one is stopped during the drive and keeps the pose it
   // had.

@@ -61,6 +61,19 @@ class SnapshotFile : public testing::Test {
 
 const std::vector<std::string> kCoarse = {"solver.cell_m=0.2"};
 
+TEST_F(SnapshotFile, HasTheBytesOfASnapshotInMemory) {
+  const auto first = make("bucket_path.sdf", kCoarse, 0.5);
+  const std::vector<char> bytes = first->snapshot();
+  first->save(path_);
+  EXPECT_EQ(read_file(path_), bytes);
+  const auto second = make("bucket_path.sdf", kCoarse);
+  second->restore(bytes);
+  EXPECT_EQ(second->state_hash(), first->state_hash());
+  std::vector<char> torn = bytes;
+  torn[torn.size() / 2] ^= 1;
+  EXPECT_THROW(second->restore(torn), InputError);
+}
+
 TEST_F(SnapshotFile, RefusesTenThousandDamagedFiles) {
   // At a time when the bucket is in the soil.
   const auto session = make("bucket_path.sdf", kCoarse, 1.5);
