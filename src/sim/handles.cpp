@@ -85,7 +85,18 @@ Vec3 ToolHandle::moment() const { return load(*parts_, tool_).moment_W; }
 Vec3 ToolHandle::smooth_force() const { return load(*parts_, tool_).smooth_W; }
 Vec3 ToolHandle::rock_force() const { return load(*parts_, tool_).rock_W; }
 // The coupling knows the other tools: soil in a bucket inside a bed counts for the bucket.
-double ToolHandle::payload() const { return parts_->coupling.payload(load(*parts_, tool_)); }
+// It is computed once a step: operators, gauges and outputs read the same value.
+double ToolHandle::payload() const {
+  const coupling::ToolLoad& tool = load(*parts_, tool_);
+  const Pose X_WL = parts_->coupling.engine(tool.machine)
+                        .link(parts_->coupling.index(tool.machine), tool.link)
+                        .X_WL;
+  parts_->payloads.resize(parts_->coupling.tools().size());
+  PayloadOfStep& latest = parts_->payloads[static_cast<std::size_t>(tool_)];
+  if (!latest.mass || latest.step != parts_->steps || latest.X_WL.affine() != X_WL.affine())
+    latest = {parts_->steps, X_WL, parts_->coupling.payload(tool)};
+  return *latest.mass;
+}
 // Copied into sim's own type, so that no client sees the solver's.
 MomentumBalance ToolHandle::momentum_balance() const {
   const soil::ToolImpulse& impulse = load(*parts_, tool_).impulse;

@@ -122,6 +122,8 @@ void WorldParts::visit(Archive& a) {
   if (a.loading()) {
     steps = head.steps;
     dt = head.dt;
+    // Loading may lead to other soil at the same step.
+    payloads.clear();
   }
   a("ground", ground);
   a("soil", soil);

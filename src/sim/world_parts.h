@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "coupling/coupling.h"
@@ -27,6 +28,16 @@ namespace navvy::sim {
 
 // Forward declared: the class that owns the parts and gives clients access to them.
 class World;
+
+/// Payload of a tool, as computed last. It saves the pass over the particles when several clients
+/// ask in one step.
+struct PayloadOfStep {
+  /// Number of the step and pose of the tool's link that the payload belongs to.
+  std::uint64_t step = 0;
+  Pose X_WL = Pose::Identity();
+  /// Payload [kg]; none before it was computed.
+  std::optional<double> mass;
+};
 
 /// Parts of a world in the order of their construction. Parts hold references to parts above them,
 /// so the struct can be neither copied nor moved.
@@ -86,6 +97,8 @@ struct WorldParts {
   double dt = 0;
   /// Number of base steps taken since the start of the simulation.
   std::uint64_t steps = 0;
+  /// Latest payload of each tool, in the order of Coupling::tools. Not part of the state.
+  mutable std::vector<PayloadOfStep> payloads;
 
  private:
   /// Fills the bed of a machine with the initial load that the scene specifies. Has no effect if
