@@ -7,14 +7,27 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "render/image.h"
 #include "sensor/sensor_output.h"
 
 namespace navvy::record {
 namespace {
 
+// Place of a reading's number in the names of pictures, as Python's str.format reads it.
+constexpr const char* kReading = "{reading:06}";
+
+/// Returns true if the array is a picture of a colour or a label camera.
+bool is_picture(const sim::ArrayChannel& channel, const sensor::SensorOutput* sensor) {
+  if (sensor == nullptr) return false;
+  const bool colours = channel.type == sim::ElementType::kUint8 && channel.shape.size() == 3 &&
+                       channel.shape[2] == 3;
+  return colours || (channel.type == sim::ElementType::kUint16 && channel.shape.size() == 2);
+}
+
 /// Returns the file of an array within the run's folder. `sensor` is the sensor that publishes it;
 /// null if none does.
 std::string file_of(const sim::ArrayChannel& channel, const sensor::SensorOutput* sensor) {
+  if (is_picture(channel, sensor)) return "sensors/" + channel.name + "_" + kReading + ".png";
   return (sensor != nullptr ? "sensors/" : "arrays/") + channel.name + ".npy";
 }
 
@@ -58,7 +71,10 @@ void ArrayRecorder::open_new() {
   for (std::size_t i = streams_.size(); i < channels.size(); ++i) {
     const sensor::SensorOutput* sensor = sensor_of(sensors, i);
     const std::string name = file_of(channels[i], sensor);
-    streams_.push_back({std::make_unique<ArrayFile>(folder_.path(name), channels[i]), 0, name});
+    streams_.push_back({is_picture(channels[i], sensor)
+                            ? nullptr
+                            : std::make_unique<ArrayFile>(folder_.path(name), channels[i]),
+                        0, name});
     // All arrays of a sensor are published together, so one list is enough.
     if (sensor == nullptr || sensor->arrays.front().index != static_cast<int>(i)) continue;
     Stream& stream = streams_.back();
@@ -85,9 +101,27 @@ void ArrayRecorder::observe() {
     // An array that was not published has sequence 0 and no record.
     if (value.sequence() == streams_[i].sequence) continue;
     streams_[i].sequence = value.sequence();
-    streams_[i].file->add(value);
+    if (streams_[i].file != nullptr)
+      streams_[i].file->add(value);
+    else
+      write_picture(streams_[i], value);
     if (streams_[i].index != nullptr) streams_[i].index->add(row_of(value));
   }
+}
+
+void ArrayRecorder::write_picture(const Stream& stream, const sim::ArrayView& value) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%06llu", static_cast<unsigned long long>(value.sequence()));
+  std::string name = stream.name;
+  name.replace(name.find(kReading), std::string(kReading).size(), number);
+  const int height = value.channel().shape[0], width = value.channel().shape[1];
+  const std::string path = folder_.path(name);
+  if (value.channel().type == sim::ElementType::kUint16) {
+    write_file_atomically(path, render::encode_png(width, height, value.values<std::uint16_t>()));
+    return;
+  }
+  const auto rgb = value.values<std::uint8_t>();
+  render::write_png(path, {width, height, {rgb.begin(), rgb.end()}});
 }
 
 void ArrayRecorder::restart() {
@@ -98,7 +132,7 @@ void ArrayRecorder::restart() {
 
 void ArrayRecorder::move_out() {
   for (Stream& stream : streams_) {
-    stream.file->move_to(folder_.path(stream.name));
+    if (stream.file != nullptr) stream.file->move_to(folder_.path(stream.name));
     if (stream.index != nullptr) stream.index->move_to(folder_.path(stream.index_name));
   }
   if (!streams_.empty()) write_index();
@@ -106,7 +140,7 @@ void ArrayRecorder::move_out() {
 
 void ArrayRecorder::checkpoint(bool end) {
   for (const Stream& stream : streams_) {
-    end ? stream.file->sync() : stream.file->flush();
+    if (stream.file != nullptr) end ? stream.file->sync() : stream.file->flush();
     if (stream.index != nullptr) end ? stream.index->sync() : stream.index->flush();
   }
 }

@@ -20,9 +20,10 @@ namespace navvy::record {
 /// An array named "excavator/grid" is written to `arrays/excavator/grid.npy` (array_file.h). The
 /// array "ranges" of the sensor "laser" of "robot" is written to `sensors/robot/laser/ranges.npy`,
 /// beside an `index.csv` with one row per reading: its number, the times of its measurement and of
-/// its delivery, and the latency between them. The file `arrays/index.json` lists file, element
-/// type, shape, unit, frame, rate and meaning of each array. None of them is written for a world
-/// without arrays.
+/// its delivery, and the latency between them. Pictures of its colour and label cameras are PNG
+/// files instead, one for each reading, such as `sensors/robot/eye/image_000001.png`. The file
+/// `arrays/index.json` lists file, element type, shape, unit, frame, rate and meaning of each
+/// array. None of them is written for a world without arrays.
 class ArrayRecorder {
  public:
   /// Keeps references to `session` and `folder`, which must outlive this object.
@@ -46,11 +47,11 @@ class ArrayRecorder {
  private:
   /// Output file of one array, and the last value that was written to it.
   struct Stream {
-    /// Open file that receives the array's values.
+    /// Open file that receives the array's values; null if they are written as pictures.
     std::unique_ptr<ArrayFile> file;
     /// Sequence number of the last recorded value; 0 if none was recorded.
     std::uint64_t sequence = 0;
-    /// Path in the run's folder.
+    /// Path in the run's folder; of pictures with "{reading:06}" for the number of the reading.
     std::string name;
     /// List of a sensor's readings; only with the first array of a sensor.
     std::unique_ptr<RowFile> index = nullptr;
@@ -60,6 +61,8 @@ class ArrayRecorder {
   /// Opens files for arrays that were added to the world since the last call, and updates the
   /// index.
   void open_new();
+  /// Writes a reading of a camera as a PNG file.
+  void write_picture(const Stream& stream, const sim::ArrayView& value);
   /// Writes the list of all arrays.
   void write_index();
 

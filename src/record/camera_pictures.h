@@ -15,9 +15,8 @@ namespace navvy::record {
 
 /// Draws pictures from the cameras of one world.
 ///
-/// The first picture creates the drawing context, so a run without pictures needs none. A process
-/// may have only one drawing context at a time (render::Renderer). Pictures are drawn on the
-/// calling thread.
+/// The first picture creates the drawing context, so a run without pictures needs none. Pictures
+/// are drawn on the calling thread.
 class CameraPictures {
  public:
   /// Function that receives each picture as soon as it is drawn.

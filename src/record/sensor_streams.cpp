@@ -92,7 +92,25 @@ struct StreamOf {
   Kind operator()(const scene::LabelCamera& camera) const {
     return SensorStream::Picture{array("labels"), "16UC1", camera.fov, 0};
   }
+  Kind operator()(const scene::ColourCamera& camera) const {
+    return SensorStream::Picture{array("image"), "rgb8", camera.fov, 0};
+  }
 };
+
+/// Appends the two cameras of a pair, with frames of their own below that of the pair.
+void add_pair(const StreamOf& of, const scene::StereoCamera& camera, const SensorStream& pair,
+              std::vector<SensorStream>& out) {
+  for (const bool right : {false, true}) {
+    const std::string side = right ? "right" : "left";
+    const double baseline = right ? camera.baseline : 0;
+    SensorStream one = pair;
+    one.name += "_" + side;
+    one.frame += "_" + side;
+    one.X_LS = pair.X_LS * make_pose(0, -baseline, 0, 0, 0, 0);
+    one.kind = SensorStream::Picture{of.array(side), "rgb8", camera.fov, baseline};
+    out.push_back(std::move(one));
+  }
+}
 
 }  // namespace
 
@@ -104,6 +122,10 @@ std::vector<SensorStream> sensor_streams(const sim::World& world) {
     out.push_back({output.machine, output.link, machine.name(), about.name,
                    formats::ros::name_beside_links(machine.description(), about.name), about.X_LS,
                    std::visit(StreamOf{output}, about.kind)});
+    if (const auto* pair = std::get_if<scene::StereoCamera>(&about.kind)) {
+      const SensorStream whole = out.back();
+      add_pair(StreamOf{output}, *pair, whole, out);
+    }
   }
   return out;
 }

@@ -30,8 +30,11 @@ GlContext::GlContext() {
 }
 
 GlContext::~GlContext() {
-  // The buffers belong to the context, so they are released before it.
-  if (width_ > 0) release_multisample();
+  // The buffers belong to the context, so they are released before it, and in it: that of another
+  // renderer may be the current one.
+  if (frame_ != 0 && OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), pixels_.data(),
+                                       GL_UNSIGNED_BYTE, width_, height_) != 0)
+    release_multisample();
   OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
 }
 

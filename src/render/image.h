@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,10 @@ struct DepthImage {
 /// Returns the content of a PNG file with the picture, compressed for speed rather than size.
 /// @throws Error if the picture is empty, or if its size does not match its data.
 std::vector<char> encode_png(const Image& image);
+/// Returns the content of a grey PNG file of 16 bits with `width` x `height` values, rows from top
+/// to bottom. Readers get back the same values.
+/// @throws Error if the picture is empty, or if its size does not match its data.
+std::vector<char> encode_png(int width, int height, std::span<const std::uint16_t> values);
 /// Writes a picture to the PNG file `path`. The file is replaced as a whole: a reader sees either
 /// the old or the new content. @throws FileError with path and cause if writing fails.
 void write_png(const std::string& path, const Image& image);

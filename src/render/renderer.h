@@ -46,10 +46,10 @@ struct RenderStats {
 
 /// Draws ground, soil particles, machines, sky and shadows with Coin3D and OSMesa.
 ///
-/// The same frame gives bit-identical pictures with the same version of Mesa. Only one Renderer may
-/// exist in a process at a time, and all its calls must come from one thread, because Coin is not
-/// thread-safe. The mesh of the ground is cached, so the cost of a picture depends on the area that
-/// has changed and on what the camera sees.
+/// The same frame gives bit-identical pictures with the same version of Mesa. All
+/// calls to all renderers of a process must come from one thread, because Coin is not thread-safe.
+/// The mesh of the ground is cached, so the cost of a picture depends on the area that has changed
+/// and on what the camera sees.
 class Renderer {
  public:
   /// Creates the OpenGL context. @throws Error if that fails.

@@ -373,7 +373,8 @@ std::vector<heightfield::CellRect> Simulation::changed() {
 
 render::Image Simulation::image(const std::string& camera) {
   State& s = *state_;
-  // A process has one drawing context at a time: that of the recorder serves where there is one.
+  // The drawing context of the recorder serves where there is one: another would build the ground's
+  // mesh again.
   if (s.recorder) return s.recorder->draw(camera);
   if (!s.pictures) s.pictures = std::make_unique<record::CameraPictures>(s.world());
   return s.pictures->draw(camera);

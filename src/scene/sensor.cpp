@@ -48,6 +48,8 @@ const std::vector<SensorType>& sensor_types() {
       {"depth_camera", index_of_kind<DepthCamera>()},
       {"depth", index_of_kind<DepthCamera>()},
       {"segmentation", index_of_kind<LabelCamera>()},
+      {"camera", index_of_kind<ColourCamera>()},
+      {"navvy:stereo", index_of_kind<StereoCamera>()},
       {"navvy:map", index_of_kind<OwnMap>()},
   };
   return types;

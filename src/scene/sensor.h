@@ -372,6 +372,44 @@ struct DepthCamera {
 /// Camera that labels pixels: 0 nothing, 1 ground, 2 loose soil, 3 + i the machine with index i.
 struct LabelCamera : DepthCamera {};
 
+/// Camera for colour pictures in 8-bit sRGB, drawn as the pictures of a scene's cameras are.
+struct ColourCamera {
+  double fov = 1.047;         ///< horizontal field of view [rad]
+  int width = 0, height = 0;  ///< number of pixels
+  SensorNoise noise;          ///< errors of a colour, on a scale from 0 to 1
+  /// Elements without effect.
+  std::string format, near, far;
+
+  /// Passes the fields of a camera to the visitor `f`.
+  void describe(Fields& f) {
+    f.group({"camera", "Optics of a camera.", kSdf | kNeeded}, [this](Fields& g) {
+      g("horizontal_fov", fov, {0.02, 2.96}, "Horizontal field of view, in radians.", kSdf);
+      g.group({"image", "Size of the picture.", kSdf | kNeeded}, [this](Fields& h) {
+        h("width", width, {1, 8192}, "Number of pixels along a row.", kSdf | kNeeded);
+        h("height", height, {1, 8192}, "Number of rows.", kSdf | kNeeded);
+        h("format", format, "Read and ignored: pictures are 8-bit RGB.", kSdf);
+      });
+      g.group({"clip", "Read and ignored.", kSdf}, [this](Fields& h) {
+        h("near", near, "Read and ignored: pictures show all from 0.12 m on.", kSdf);
+        h("far", far, "Read and ignored: pictures show all.", kSdf);
+      });
+      g("noise", noise, "Random errors of a colour, on a scale from 0 to 1.", kSdf);
+    });
+  }
+};
+
+/// Two equal colour cameras side by side. The left one is at the origin of S.
+struct StereoCamera : ColourCamera {
+  double baseline = 0.12;  ///< distance from the left camera to the right one, along -y of S [m]
+
+  /// Passes the fields of a pair of cameras to the visitor `f`.
+  void describe(Fields& f) {
+    ColourCamera::describe(f);
+    f("navvy:baseline_m", baseline, {1e-3, 10},
+      "Distance from the left camera, at the origin of the sensor, to the right one.");
+  }
+};
+
 /// Map of the ground that a machine makes from the scans of its own laser scanners. It shows what
 /// they have seen, with their errors and gaps, and beside it a prediction of what the machine's
 /// buckets have done to ground that nothing has seen since.
@@ -390,7 +428,8 @@ struct OwnMap {
       g("min_m", min, {-1e6, 1e6}, "Corner in W of least x and y; by default that of the site.",
         given(has_area));
       g("max_m", max, {-1e6, 1e6}, "Corner in W of greatest x and y; needed with min_m.");
-      g("self_filter", self_filter, "Leave out points on the machine itself.");
+      g("self_filter", self_filter,
+        "Leave out points on the machine itself and on the soil in its buckets and beds.");
       g("margin_m", margin, {0, 10}, "Distance within which a point is on the machine.");
       g("memory", memory, {0, 1000}, "Weight of all earlier points of a cell, in new points.");
     });
@@ -398,9 +437,9 @@ struct OwnMap {
 };
 
 /// The part of a sensor that depends on its kind.
-using SensorKind =
-    std::variant<Lidar, Sonar, Infrared, TimeOfFlight, Imu, Gnss, JointGauge, CylinderPressure,
-                 ContactSwitch, ToolForce, PayloadScale, DepthCamera, LabelCamera, OwnMap>;
+using SensorKind = std::variant<Lidar, Sonar, Infrared, TimeOfFlight, Imu, Gnss, JointGauge,
+                                CylinderPressure, ContactSwitch, ToolForce, PayloadScale,
+                                DepthCamera, LabelCamera, ColourCamera, StereoCamera, OwnMap>;
 
 /// A value of the attribute `type` of a <sensor>, and the index in SensorKind that it stands for.
 struct SensorType {

@@ -22,7 +22,6 @@ const std::set<std::string>& ignored_types() {
                                               "altimeter",
                                               "boundingbox",
                                               "boundingbox_camera",
-                                              "camera",
                                               "custom",
                                               "force_torque",
                                               "logical_camera",
@@ -178,6 +177,10 @@ struct KindRules {
     check_count(at, 1.0 * camera.width * camera.height, faults);
     noise(camera.noise);
   }
+  void operator()(const scene::ColourCamera& camera) const {
+    check_count(at, 1.0 * camera.width * camera.height, faults);
+    noise(camera.noise);
+  }
   void operator()(const scene::OwnMap& map) const {
     if (!map.has_area) return;
     if ((map.min.array() >= map.max.array()).any())
@@ -270,8 +273,7 @@ bool read_sensor(Element& element, const Names& names, scene::Sensor& sensor, Fa
   const std::string type = attribute(element, "type");
   if (ignored_types().count(type) > 0) {
     faults.warning(element, type, "sensors of this type are ignored",
-                   type == "camera" ? "for pictures use navvy:camera"
-                                    : "`navvy schema sensor` lists those that are simulated");
+                   "`navvy schema sensor` lists those that are simulated");
     return false;
   }
   fill_in_preset(element, faults);

@@ -15,12 +15,17 @@
 
 namespace navvy::sensor {
 
+// Forward declared: only colour cameras draw.
+class PictureScene;
+
 /// A sensor in its world.
 struct Mounting {
   const sim::World& world;           ///< the world
   int machine, link;                 ///< indices of the carrying machine and link
   const scene::Sensor& description;  ///< the sensor as the scene describes it
   std::shared_ptr<RayScene> scene;   ///< what beams meet; shared by all sensors of the world
+  /// What colour cameras see; shared by all sensors of the world.
+  std::shared_ptr<PictureScene> pictures;
 
   /// Returns the handle of the carrying machine.
   sim::MachineHandle machine_handle() const { return world.machines().at(machine); }
@@ -52,6 +57,8 @@ class Instrument {
   virtual std::vector<MeasuredQuantity> quantities() const = 0;
   /// Returns true if it uses the ray scene, which is then up to date in `measure`.
   virtual bool looks() const { return false; }
+  /// Returns true if it must not be inside a body or below the ground.
+  virtual bool needs_view() const { return looks(); }
   /// Returns the number of columns that are measured one after the other during the sweep; 1 for a
   /// sensor that measures at one instant.
   virtual int columns() const { return 1; }
@@ -90,6 +97,10 @@ std::unique_ptr<Instrument> make(const scene::DepthCamera& kind, const Mounting&
 std::unique_ptr<Instrument> make(const scene::LabelCamera& kind, const Mounting& at,
                                  Random& random);
 
+std::unique_ptr<Instrument> make(const scene::ColourCamera& kind, const Mounting& at,
+                                 Random& random);
+std::unique_ptr<Instrument> make(const scene::StereoCamera& kind, const Mounting& at,
+                                 Random& random);
 std::unique_ptr<Instrument> make(const scene::OwnMap& kind, const Mounting& at, Random& random);
 
 }  // namespace navvy::sensor

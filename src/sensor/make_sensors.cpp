@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "sensor/picture_scene.h"
 #include "sensor/ray_scene.h"
 #include "sensor/sensor_output.h"
 #include "sensor/sensor_sampler.h"
@@ -12,8 +13,9 @@
 namespace navvy::sensor {
 namespace {
 
-/// Appends what is wrong with a sensor in this world to `faults`. `looks`: it needs a free view.
-void check(const Mounting& at, bool looks, std::vector<Fault>& faults) {
+/// Appends what is wrong with a sensor in this world to `faults`. `needs_view`: it needs a free
+/// view.
+void check(const Mounting& at, bool needs_view, std::vector<Fault>& faults) {
   const scene::Sensor& sensor = at.description;
   const auto add = [&](const std::string& value, const std::string& rule,
                        const std::string& remedy) {
@@ -33,7 +35,7 @@ void check(const Mounting& at, bool looks, std::vector<Fault>& faults) {
           "a sweep must end before the next one begins, after " +
               scene::short_text(1 / sensor.rate) + " s",
           "shorten navvy:sweep_s, or lower update_rate");
-  if (!looks) return;
+  if (!needs_view) return;
   at.scene->update();
   const Vec3 p_W = (at.link_handle().pose() * sensor.X_LS).translation();
   if (const std::string inside = at.scene->around(p_W); !inside.empty())
@@ -49,15 +51,19 @@ std::vector<std::unique_ptr<sim::Sampler>> make_sensors(const sim::World& world)
   std::vector<std::unique_ptr<sim::Sampler>> out;
   std::vector<Fault> faults;
   std::shared_ptr<RayScene> scene;
+  std::shared_ptr<PictureScene> pictures;
   const auto& machines = world.description().machines;
   for (std::size_t m = 0; m < machines.size(); ++m)
     for (std::size_t l = 0; l < machines[m].machine.links.size(); ++l)
       for (const scene::Sensor& sensor : machines[m].machine.links[l].sensors) {
         // A world without sensors pays nothing.
-        if (scene == nullptr) scene = std::make_shared<RayScene>(world);
-        const Mounting at{world, static_cast<int>(m), static_cast<int>(l), sensor, scene};
+        if (scene == nullptr) {
+          scene = std::make_shared<RayScene>(world);
+          pictures = std::make_shared<PictureScene>(world);
+        }
+        const Mounting at{world, static_cast<int>(m), static_cast<int>(l), sensor, scene, pictures};
         auto made = std::make_unique<SensorSampler>(at);
-        check(at, made->looks(), faults);
+        check(at, made->needs_view(), faults);
         out.push_back(std::move(made));
       }
   if (!faults.empty()) throw InputError(std::move(faults));

@@ -39,6 +39,7 @@ struct SensorArray {
 /// - depth camera: depth [rows, columns] float32 m along x of S, inf and -inf as above;
 /// - label camera: labels [rows, columns] uint16: 0 nothing, 1 ground, 2 loose soil in the air or
 ///   in a tool, 3 + i the machine with index i in the scene;
+/// - camera: image [rows, columns, 3] uint8 sRGB; stereo: left and right, likewise;
 /// - map: elevation and predicted [rows, columns] float32 m, NaN where nothing is known, from the
 ///   smallest y and x; score [4] float64: share of known cells, rms, mean and largest magnitude of
 ///   elevation - truth [m].

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/hash.h"
+#include "sensor/picture_scene.h"
 #include "sim/timing.h"
 
 namespace navvy::sensor {
@@ -170,6 +171,7 @@ void SensorSampler::visit(Archive& a) {
     a.require(fits, "readings", "a reading of another size; load it with the same sensors");
   }
   at_.scene->forget();
+  at_.pictures->forget();
 }
 
 }  // namespace navvy::sensor

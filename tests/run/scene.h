@@ -39,6 +39,27 @@ inline scene::Scene gauged_scene(double duration) {
   return scene;
 }
 
+/// Returns the scene of `bucket_scene` with the sensors "bucket/eye" and "bucket/labels", cameras
+/// for colours and labels with 32 x 24 pixels, at 10 Hz.
+inline scene::Scene scene_with_cameras(double duration) {
+  scene::Scene scene = bucket_scene(duration);
+  const auto add = [&](const char* name, const char* type, auto kind) {
+    kind.width = 32;
+    kind.height = 24;
+    scene::Sensor sensor;
+    sensor.name = name;
+    sensor.type = type;
+    sensor.rate = 10;
+    // Behind the bucket, looking down at it.
+    sensor.X_LS = make_pose(-3, 0, 2, 0, 0.5, 0);
+    sensor.kind = kind;
+    scene.machines.front().machine.links.front().sensors.push_back(sensor);
+  };
+  add("eye", "camera", scene::ColourCamera());
+  add("labels", "segmentation", scene::LabelCamera());
+  return scene;
+}
+
 /// Returns options with a sampler: the array "bucket/height_grid" of 5 x 5 heights at 50 Hz.
 inline SimulationOptions with_height_grid(SimulationOptions options = {}) {
   options.set_up = [](session::Session& session) {

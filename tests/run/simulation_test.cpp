@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "core/error.h"
 #include "folder.h"
+#include "render/image.h"
 #include "run/scene.h"
 #include "text_of.h"
 
@@ -290,6 +292,35 @@ TEST(Simulation, RecordsReadingsOfSensorsWithTheirTimes) {
   ASSERT_EQ(sensors.size(), 1u);
   EXPECT_EQ(sensors[0].at("name"), "bucket/gauge");
   EXPECT_EQ(sensors[0].at("readings"), readings);
+}
+
+TEST(Simulation, RecordsPicturesOfSensorsAsPngFiles) {
+  const navvy::test::Folder folder;
+  SimulationOptions options;
+  options.folder = folder / "out";
+  Simulation simulation(test::scene_with_cameras(0.25), options);
+  simulation.run_to_end();
+  const sim::ArrayView eye = simulation.arrays().view("bucket/eye/image"),
+                       labels = simulation.arrays().view("bucket/labels/labels");
+  ASSERT_EQ(eye.sequence(), 3u);
+  for (const json& entry : json_of(folder / "out/arrays/index.json"))
+    EXPECT_NE(entry.at("file").get<std::string>().find("_{reading:06}.png"), std::string::npos);
+  const render::Image image = render::read_png(folder / "out/sensors/bucket/eye/image_000003.png");
+  EXPECT_EQ(image.width, 32);
+  EXPECT_EQ(image.height, 24);
+  const auto rgb = eye.values<std::uint8_t>();
+  EXPECT_TRUE(std::equal(rgb.begin(), rgb.end(), image.rgb.begin(), image.rgb.end()));
+  const std::string script =
+      "import sys\nfrom PIL import Image\np = Image.open(sys.argv[1])\n"
+      "assert p.size == (32, 24) and p.mode.startswith('I'), (p.size, p.mode)\n"
+      "assert p.getpixel((16, 23)) == int(sys.argv[2]), p.getpixel((16, 23))\n";
+  if (std::system("/usr/bin/python3 -c 'import PIL' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "Pillow for /usr/bin/python3 is missing (python3-pil)";
+  std::ofstream(folder / "read.py") << script;
+  const std::string command = "/usr/bin/python3 '" + (folder / "read.py") + "' '" +
+                              (folder / "out/sensors/bucket/labels/labels_000003.png") + "' " +
+                              std::to_string(labels.values<std::uint16_t>()[32 * 23 + 16]);
+  EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
 TEST(Simulation, ResetRepeatsTheReadingsOfSensors) {

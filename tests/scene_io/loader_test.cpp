@@ -425,7 +425,7 @@ const std::string kSite =
 
 TEST(Loader, FillsInAPresetOfASensorAndIgnoresOtherSensorsOfSdf) {
   const scene::Scene world = load(kSite + R"(<model name="m"><static>true</static><link name="l">
-      <sensor name="eye" type="camera"><camera/></sensor>
+      <sensor name="eye" type="thermal_camera"><camera/></sensor>
       <sensor name="laser"><navvy:preset>sick_lms200</navvy:preset><pose degrees="true">0 0 1 0 0 90
       </pose><update_rate>25</update_rate><lidar><range><max>6</max></range></lidar></sensor>
       </link></model>)");
