@@ -52,8 +52,13 @@ void BallGrid::build(const Vec3& origin, const std::vector<sim::SoilBall>& balls
   const auto count = static_cast<std::size_t>(size_.prod());
   start_.assign(count + 1, 0);
   cell_.resize(balls.size());
+  // In floats: a centre at the border of two cells may be in either, as edges are four radii.
+  const Eigen::Vector3f corner = low_.cast<float>();
+  const float scale = static_cast<float>(1 / edge_);
+  const Eigen::Vector3i last = size_ - Eigen::Vector3i::Ones();
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    cell_[i] = static_cast<std::uint32_t>(index(cell_at(balls[i].p_O.cast<double>())));
+    const Eigen::Vector3f at = scale * (balls[i].p_O - corner);
+    cell_[i] = static_cast<std::uint32_t>(index(at.cast<int>().cwiseMax(0).cwiseMin(last)));
     ++start_[cell_[i]];
   }
   // Ends of the cells first, then entries from the last to the first: the order of the balls in a

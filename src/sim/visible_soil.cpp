@@ -49,15 +49,17 @@ void sort_by_column(std::vector<Listed>& list, std::vector<Listed>& spare) {
 }  // namespace
 
 struct VisibleSoil::State {
-  explicit State(const World& w) : world(w) {}
+  explicit State(const World& w) : world(w) {
+    for (const auto& soil : world.description().soils)
+      bank_volume.push_back(kilograms(1) / soil.bank_density);
+  }
 
   Vec3 place(const Listed& one) const {
     return parts(world).soil.grid_origin() + world.ground().cell() * places[one.particle].grid;
   }
   double volume(const Listed& one) const {
     const soil::ParticlePlace& p = places[one.particle];
-    return kilograms(p.mass) * static_cast<double>(p.j0) /
-           world.description().soils[p.soil].bank_density;
+    return p.mass * static_cast<double>(p.j0) * bank_volume[p.soil];
   }
   void add_ball(const Listed& one) {
     // Most particles are as large as the one before.
@@ -72,6 +74,7 @@ struct VisibleSoil::State {
   void take_column(std::span<Listed> column, const std::function<bool(const Vec3&)>& holds);
 
   const World& world;
+  std::vector<double> bank_volume;  ///< volume of a unit of mass in bank state, by soil [m3]
   std::optional<heightfield::TerrainView> surface;
   Vec3 origin = Vec3::Zero();
   std::vector<SoilBall> balls;
