@@ -21,6 +21,7 @@ FOLDER = os.path.join("docs", "reference")
 COMMANDS = [
     "run",
     "check",
+    "import",
     "map",
     "devices",
     "scenes",

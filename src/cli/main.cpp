@@ -17,6 +17,7 @@
 #include "cli/commands.h"
 #include "cli/crash.h"
 #include "cli/exit_code.h"
+#include "cli/import_command.h"
 #include "cli/severity.h"
 #include "core/edit_distance.h"
 #include "core/error.h"
@@ -148,6 +149,7 @@ int run(int argc, char** argv) {
   // The command line is recorded in the folder of a run.
   cli::add_run(app, action, {argv, argv + argc});
   cli::add_check(app, action);
+  cli::add_import(app, action);
   cli::add_map(app, action);
   cli::add_devices(app, action);
   cli::add_scenes(app, action);

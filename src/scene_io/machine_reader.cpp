@@ -4,6 +4,7 @@
 #include "scene_io/assembly.h"
 #include "scene_io/derived_parts.h"
 #include "scene_io/drive_rules.h"
+#include "scene_io/found_wheels.h"
 #include "scene_io/link_rules.h"
 #include "scene_io/machine_rules.h"
 #include "scene_io/sdf_model.h"
@@ -28,6 +29,19 @@ void read_extensions(Element& model, const Names& names, scene::Machine& machine
     check_wheels(*drive, machine, faults);
 }
 
+namespace {
+
+/// Warns of a foreign machine whose wheels are rigid bodies to the soil.
+void warn_of_rigid_wheels(const Element& model, const scene::Machine& machine, Faults& faults) {
+  if (!Document::of(model).foreign() || !machine.wheels.empty() || faults.has_errors()) return;
+  if (const std::size_t wheels = find_wheels(machine).size(); wheels > 0)
+    faults.warning(model, std::to_string(wheels) + " wheels",
+                   "roll as rigid bodies, which neither sink into soil nor leave ruts",
+                   "`navvy import FILE --out DIR` gives them tyres and a drive");
+}
+
+}  // namespace
+
 scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   scene::Machine machine;
   machine.file = Document::of(model).file();
@@ -48,6 +62,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   read_sensors(model, names, machine, faults);
   // Wheels and shells decide which links have other contact shapes.
   derive_parts(model, machine, faults);
+  warn_of_rigid_wheels(model, machine, faults);
   return machine;
 }
 

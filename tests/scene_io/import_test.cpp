@@ -295,6 +295,20 @@ TEST_F(Import, RobotAloneRunsAsASceneThatItStandsIn) {
   EXPECT_EQ(again.soils.at(0).name, "gravel");
 }
 
+TEST_F(Import, WheelsWithoutTyresAreNamed) {
+  const std::string tyre =
+      "<collision><geometry><cylinder radius='0.2' length='0.1'/></geometry></collision>";
+  const Read got =
+      read_robot(urdf_link("body") + urdf_link("wheel", tyre) +
+                 urdf_joint("spin", "continuous", "body", "wheel",
+                            "<origin rpy='-1.5707963267948966 0 0'/><axis xyz='0 0 1'/>"));
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  EXPECT_EQ(got.warnings, 1u) << got.messages;
+  EXPECT_NE(got.messages.find("robot.urdf:1: warning: model[r]: '1 wheels': roll as rigid bodies"),
+            std::string::npos)
+      << got.messages;
+}
+
 TEST_F(Import, RootNamedWorldHoldsTheRobot) {
   const Read got = read_robot("<link name='world'/>" + urdf_link("base") +
                               urdf_joint("on", "fixed", "world", "base"));

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/machine_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "geometry/hull.h"
+#include "geometry/primitive_solids.h"
+#include "geometry/read_mesh.h"
+#include "geometry/solid_properties.h"
+#include "scene_io/assembly.h"
+#include "scene_io/element_reader.h"
+#include "scene_io/foreign_private.h"
+#include "scene_io/found_wheels.h"
+#include "scene_io/loader.h"
+#include "scene_io/machine_reader.h"
+#include "scene_io/mesh_path.h"
+#include "scene_io/sdf_rules.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+namespace fs = std::filesystem;
+using scene::short_text;
+
+/// Below this density a mass is a placeholder: even a hollow body of sheet metal is heavier
+/// [kg/m3] (U).
+constexpr double kLeastDensity = 5;
+
+/// Returns the solid of a shape in its link's frame at 1 kg/m3; meshes count by their hulls.
+geometry::SolidProperties solid_of(const scene::Geometry& shape, const Pose& X_LS) {
+  using Kind = scene::Geometry::Kind;
+  geometry::SolidProperties out;
+  if (shape.kind == Kind::kBox) out = geometry::solid_box(shape.size);
+  if (shape.kind == Kind::kCylinder) out = geometry::solid_cylinder(shape.radius, shape.length);
+  if (shape.kind == Kind::kSphere) out = geometry::solid_sphere(shape.radius);
+  if (shape.kind == Kind::kCone) out = geometry::solid_cone(shape.radius, shape.length);
+  if (shape.kind == Kind::kCapsule) out = geometry::solid_capsule(shape.radius, shape.length);
+  if (shape.kind == Kind::kMesh) {
+    try {
+      std::vector<Vec3> points = geometry::read_mesh(shape.mesh_file).vertices;
+      for (Vec3& p : points) p = p.cwiseProduct(shape.scale);
+      out = geometry::solid_properties(geometry::convex_hull(std::move(points)).mesh);
+    } catch (const InputError&) {
+      // A flat mesh encloses nothing.
+      return out;
+    }
+  }
+  return out.volume > 0 ? geometry::placed(out, X_LS) : out;
+}
+
+/// Makes one machine.
+class Maker {
+ public:
+  Maker(Document& document, Element& model, scene::Machine machine, const ImportOptions& options)
+      : document_(document), model_(model), machine_(std::move(machine)), options_(options) {}
+
+  std::vector<std::string> make(Faults& faults) {
+    copy_meshes(model_, faults);
+    weigh();
+    start_within_limits();
+    add_wheels();
+    say("not recognised: arms, buckets, beds and cylinders; add navvy:arm, navvy:shell, "
+        "navvy:bucket and navvy:cylinder where the machine has them");
+    return std::move(report_);
+  }
+
+ private:
+  void say(const std::string& sentence) { report_.push_back(sentence); }
+
+  Element* link_element(const std::string& name) {
+    for (Element* e : children_of(model_, {"link"}))
+      if (attribute(*e, "name") == name) return e;
+    return nullptr;
+  }
+
+  /// Copies every mesh into the folder and names the copy.
+  void copy_meshes(Element& element, Faults& faults) {
+    for (Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
+      const bool of_mesh = std::string(e->Name()) == "uri" && std::string(element.Name()) == "mesh";
+      std::string path;
+      if (!of_mesh) {
+        copy_meshes(*e, faults);
+      } else if (resolve_mesh(*e, path, faults)) {
+        e->SetText(copy_of(path).c_str());
+      }
+    }
+  }
+
+  /// Returns the name of the copy of a mesh file, which is made at its first use.
+  std::string copy_of(const std::string& path) {
+    const auto [at, is_new] = copies_.try_emplace(path);
+    if (!is_new) return at->second;
+    std::string name = fs::path(path).filename().string();
+    // Two folders may hold files of one name.
+    for (int n = 2; !names_.insert(name).second; ++n)
+      name = fs::path(path).stem().string() + "_" + std::to_string(n) +
+             fs::path(path).extension().string();
+    fs::create_directories(fs::path(options_.folder) / "meshes");
+    write_file_atomically((fs::path(options_.folder) / "meshes" / name).string(), read_file(path));
+    copy_parts(path);
+    return at->second = "meshes/" + name;
+  }
+
+  /// Copies the buffers of a glTF file and the materials of an OBJ file, which lie beside it.
+  void copy_parts(const std::string& path) {
+    const std::vector<char> bytes = read_file(path);
+    const std::string text(bytes.begin(), bytes.end());
+    for (const auto& entry : fs::directory_iterator(fs::path(path).parent_path())) {
+      const std::string name = entry.path().filename().string(), ending = entry.path().extension();
+      if ((ending == ".bin" || ending == ".mtl") && text.find(name) != std::string::npos)
+        write_file_atomically((fs::path(options_.folder) / "meshes" / name).string(),
+                              read_file(entry.path().string()));
+    }
+  }
+
+  /// Names masses that are placeholders, and replaces them if a density was given.
+  void weigh() {
+    for (scene::Link& link : machine_.links) {
+      geometry::SolidProperties sum;
+      for (const scene::Collision& shape : link.collisions)
+        sum = joined_with(sum, shape.geometry, shape.X_LC);
+      if (link.collisions.empty())
+        for (const scene::Visual& shape : link.visuals)
+          sum = joined_with(sum, shape.geometry, shape.X_LV);
+      if (!(sum.volume > 0) || link.mass >= kLeastDensity * sum.volume) continue;
+      const std::string what = "link '" + link.name + "' has " + short_text(link.mass) +
+                               " kg in shapes of " + short_text(sum.volume) + " m3, a placeholder";
+      if (!(options_.density > 0)) {
+        say("kept: " + what + "; --mass-from-density KG_PER_M3 replaces it");
+        continue;
+      }
+      link.mass = options_.density * sum.volume;
+      link.p_LCom = sum.p_BCom;
+      link.inertia = options_.density * sum.inertia;
+      if (Element* element = link_element(link.name)) write_inertial(*element, link);
+      say("replaced: " + what + ": " + short_text(link.mass) + " kg by the density");
+    }
+  }
+
+  static geometry::SolidProperties joined_with(const geometry::SolidProperties& sum,
+                                               const scene::Geometry& shape, const Pose& X) {
+    const geometry::SolidProperties solid = solid_of(shape, X);
+    return solid.volume > 0 ? geometry::joined(sum, solid) : sum;
+  }
+
+  void write_inertial(Element& element, const scene::Link& link) {
+    if (Element* old = element.FirstChildElement("inertial")) element.DeleteChild(old);
+    Element& inertial = append(document_, element, "inertial", element);
+    const Vec3& p = link.p_LCom;
+    append(document_, inertial, "pose", element,
+           short_text(p.x()) + " " + short_text(p.y()) + " " + short_text(p.z()) + " 0 0 0");
+    append(document_, inertial, "mass", element, scene::exact_text(link.mass));
+    Element& inertia = append(document_, inertial, "inertia", element);
+    const char* names[3][3] = {{"ixx", "ixy", "ixz"}, {"", "iyy", "iyz"}, {"", "", "izz"}};
+    for (int r = 0; r < 3; ++r)
+      for (int c = r; c < 3; ++c)
+        append(document_, inertia, names[r][c], element, scene::exact_text(link.inertia(r, c)));
+  }
+
+  void start_within_limits() {
+    for (const scene::Joint& joint : machine_.joints) {
+      if (!joint.has_limits || (joint.initial >= joint.lower && joint.initial <= joint.upper))
+        continue;
+      const double start = std::clamp(joint.initial, joint.lower, joint.upper);
+      Element& element = append(document_, model_, "navvy:joint", model_);
+      element.SetAttribute("name", joint.name.c_str());
+      const bool turns = joint.type == scene::Joint::Type::kRevolute;
+      append(document_, element, turns ? "initial_deg" : "initial_m", model_,
+             scene::exact_text(turns ? degrees(start) : start));
+      say("repaired: joint '" + joint.name + "' would start beyond its limits; it starts at " +
+          short_text(turns ? degrees(start) : start) + (turns ? " deg" : " m"));
+    }
+  }
+
+  void add_wheels() {
+    if (!machine_.wheels.empty()) return say("kept: the wheels of the file");
+    std::vector<FoundWheel> wheels = find_wheels(machine_);
+    if (wheels.empty())
+      return say("not recognised: no link rolls on the ground; see docs/import.md");
+    const double load = machine_.total_mass() * kGravity / static_cast<double>(wheels.size());
+    for (const FoundWheel& wheel : wheels) add_wheel(wheel, load);
+    add_drive(wheels);
+  }
+
+  void add_wheel(const FoundWheel& wheel, double load) {
+    const scene::Joint& joint = machine_.joints[static_cast<std::size_t>(wheel.joint)];
+    const scene::Link& link = machine_.links[static_cast<std::size_t>(joint.child)];
+    // The tyre touches the ground by its own law.
+    if (Element* element = link_element(link.name))
+      for (Element* e : children_of(*element, {"collision"})) element->DeleteChild(e);
+    if (wheel.points_right) turn_axis(joint.name);
+    Element& out = append(document_, model_, "navvy:wheel", model_);
+    out.SetAttribute("name", link.name.c_str());
+    append(document_, out, "joint", model_, joint.name);
+    if (wheel.steer >= 0)
+      append(document_, out, "steer_joint", model_,
+             machine_.joints[static_cast<std::size_t>(wheel.steer)].name);
+    if (is_driven(wheel)) append(document_, out, "driven", model_, "true");
+    const auto number = [&](const char* name, double value, double least, double most) {
+      append(document_, out, name, model_, short_text(std::clamp(value, least, most)));
+    };
+    number("radius_m", wheel.radius, 0.01, 5);
+    number("width_m", wheel.width, 0.005, 5);
+    // A tyre of solid rubber gives way by 2 % of its radius, and rebounds once.
+    const double stiffness = std::clamp(load / (0.02 * wheel.radius), 100.0, 1e9);
+    number("stiffness_n_per_m", stiffness, 100, 1e9);
+    number("damping_n_s_per_m", 0.6 * std::sqrt(stiffness * load / kGravity), 0, 1e8);
+    number("friction", std::min(wheel.friction, 1.0), 0, 3);
+    say("made: wheel '" + link.name + "' on joint '" + joint.name + "', radius " +
+        short_text(wheel.radius) + " m, width " + short_text(wheel.width) + " m" +
+        (wheel.steer >= 0 ? ", steered" : "") + (is_driven(wheel) ? ", driven" : "") +
+        (wheel.caster ? ", a caster" : "") +
+        "; its collisions are removed, a tyre touches instead");
+  }
+
+  bool is_driven(const FoundWheel& wheel) const { return wheel.steer < 0 && !wheel.caster; }
+
+  /// Turns an axis that points to the right, so that a positive speed drives ahead.
+  void turn_axis(const std::string& joint) {
+    for (Element* e : children_of(model_, {"joint"})) {
+      Element* axis = attribute(*e, "name") == joint ? e->FirstChildElement("axis") : nullptr;
+      Element* xyz = axis != nullptr ? axis->FirstChildElement("xyz") : nullptr;
+      std::vector<double> v;
+      Faults unread;
+      if (xyz == nullptr || !read_numbers(*xyz, 3, {}, v, unread)) continue;
+      const auto minus = [](double x) { return scene::exact_text(x == 0 ? 0.0 : -x); };
+      xyz->SetText((minus(v[0]) + " " + minus(v[1]) + " " + minus(v[2])).c_str());
+      say("repaired: the axis of joint '" + joint +
+          "' pointed to the right and was turned: a positive speed drives ahead");
+    }
+  }
+
+  /// Adds the drive that fits the wheels: by steering, or by the difference of both sides.
+  void add_drive(const std::vector<FoundWheel>& wheels) {
+    Vec3 steered = Vec3::Zero(), driven = Vec3::Zero();
+    double left = 0, right = 0, king_pins = 0, angle = 0, speed = 1e9, force = 0, radius = 0;
+    int n_steered = 0, n_driven = 0, n_left = 0, n_right = 0;
+    for (const FoundWheel& wheel : wheels) {
+      const scene::Joint& joint = machine_.joints[static_cast<std::size_t>(wheel.joint)];
+      if (wheel.steer >= 0) {
+        const scene::Joint& pin = machine_.joints[static_cast<std::size_t>(wheel.steer)];
+        if (pin.has_limits) angle = std::max({angle, std::abs(pin.lower), std::abs(pin.upper)});
+        king_pins = std::max(king_pins, 2 * std::abs(wheel.p_MW.y()));
+        steered += wheel.p_MW, ++n_steered;
+      }
+      if (!is_driven(wheel)) continue;
+      driven += wheel.p_MW, ++n_driven;
+      (wheel.p_MW.y() > 0 ? left : right) += wheel.p_MW.y();
+      ++(wheel.p_MW.y() > 0 ? n_left : n_right);
+      radius = wheel.radius;
+      if (joint.velocity < 1e8 && joint.velocity > 0)
+        speed = std::min(speed, joint.velocity * wheel.radius);
+      if (joint.effort < 1e8) force += joint.effort / wheel.radius;
+    }
+    if (n_left == 0 || n_right == 0)
+      return say("not recognised: no drive, as wheels that could be driven are not on both sides");
+    // Without limits in the file: a walking pace, and half of what the wheels can hold.
+    const bool known_speed = speed<1e8, known_force = force> 0;
+    if (!known_speed) speed = std::max(1.0, 5 * radius);
+    if (!known_force) force = 0.5 * machine_.total_mass() * kGravity;
+    const bool ackermann = n_steered >= 2;
+    Element& drive = append(document_, model_, "navvy:drive", model_);
+    drive.SetAttribute("type", ackermann ? "ackermann" : "differential");
+    const auto number = [&](const char* name, double value, double least, double most) {
+      append(document_, drive, name, model_, short_text(std::clamp(value, least, most)));
+    };
+    number("max_speed_m_per_s", speed, 0.01, 50);
+    number("tractive_force_n", force, 0.1, 1e7);
+    number("power_w", force * speed, 0.1, 1e7);
+    number("brake_force_n", force, 0, 1e7);
+    if (ackermann) {
+      number("max_steer_deg", degrees(angle), 0, 80);
+      number("wheelbase_m", std::abs(steered.x() / n_steered - driven.x() / n_driven), 0.01, 50);
+      number("track_m", king_pins, 0.01, 50);
+    } else {
+      number("track_m", left / n_left - right / n_right, 0.01, 50);
+    }
+    say(std::string("made: a drive by ") +
+        (ackermann ? "steered wheels" : "the difference of sides") + ", " + short_text(speed) +
+        " m/s" + (known_speed ? "" : " (assumed)") + ", " + short_text(force) + " N" +
+        (known_force ? "" : " (assumed)"));
+  }
+
+  Document& document_;
+  Element& model_;
+  scene::Machine machine_;
+  const ImportOptions& options_;
+  std::vector<std::string> report_;
+  std::map<std::string, std::string> copies_;  ///< names of copied meshes by path
+  std::set<std::string> names_;                ///< names of copied files
+};
+
+std::string report_text(const std::string& file, const std::vector<std::string>& report) {
+  std::string text = "# Import of " + fs::path(file).filename().string() + "\n";
+  for (const std::string& sentence : report) text += "- " + sentence + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> import_machine(const std::string& file, const ImportOptions& options) {
+  Faults faults;
+  const auto document = Document::open(file, faults);
+  faults.finish();
+  Element& root = *document->root();
+  check_root(root, faults);
+  assemble(*document, faults);
+  Element* model = root.FirstChildElement("model");
+  if (model == nullptr)
+    faults.error(root, root.Name(), "only a file with one machine can be imported",
+                 "name the file of the model that a world includes");
+  faults.finish();
+  scene::Machine machine = load_machine(file);
+  const std::string to = (fs::path(options.folder) / "model.sdf").string();
+  std::error_code unknown;
+  if (fs::exists(to, unknown))
+    throw InputError(Fault{Fault::Severity::kError, to, 0, "--out", "",
+                           "there is a machine already", "name another folder, or remove it"});
+  fs::create_directories(options.folder, unknown);
+  root.SetAttribute("xmlns:navvy", "navvy");
+  std::vector<std::string> report =
+      Maker(*document, *model, std::move(machine), options).make(faults);
+  faults.finish();
+  write_file_atomically(to, document->text());
+  // What was written must be a machine by our own, stricter rules.
+  for (const Fault& fault : check(to, scene::StepKinds{}))
+    report.push_back((fault.severity == Fault::Severity::kError ? "to correct: " : "note: ") +
+                     fault.text());
+  write_file_atomically((fs::path(options.folder) / "IMPORT.md").string(),
+                        report_text(file, report));
+  return report;
+}
+
+}  // namespace navvy::scene_io
