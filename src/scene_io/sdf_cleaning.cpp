@@ -130,6 +130,8 @@ class Cleaning {
     }
     if (equals_default(parent, element)) return true;
     const bool refused = sdf_treatment(parent.Name(), element.Name()) == SdfTreatment::kRefused;
+    // Without its shape a collision would be reported for lacking one.
+    if (refused && is_called(parent, "geometry")) return false;
     // A static model is moved by nothing.
     if (refused && !is_soft(parent, element) && !is_in_static(element)) return false;
     ignored_.add(element, kind, why);

@@ -165,6 +165,18 @@ TEST_F(Import, WhatChangesTheMotionIsStillRefused) {
       << got.messages;
 }
 
+TEST_F(Import, ShapeThatNavvyLacksIsRefusedAsCollisionOnly) {
+  const std::string shape = "<geometry><ellipsoid><radii>1 1 2</radii></ellipsoid></geometry>";
+  const Read drawn = read_world(
+      model("<static>1</static><link name='a'><visual name='v'>" + shape + "</visual></link>"));
+  EXPECT_EQ(drawn.errors, 0u) << drawn.messages;
+  EXPECT_NE(drawn.messages.find("it is not drawn"), std::string::npos) << drawn.messages;
+  const Read solid = read_world(model("<static>1</static><link name='a'>\n<collision name='c'>" +
+                                      shape + "</collision></link>"));
+  EXPECT_NE(solid.messages.find("world.sdf:5: error"), std::string::npos) << solid.messages;
+  EXPECT_NE(solid.messages.find("ellipsoid: is not supported"), std::string::npos);
+}
+
 TEST_F(Import, StaticPlaneIsTheGround) {
   const std::string plane =
       "<static>1</static><pose>0 0 0.5 0 @ 0</pose><link name='l'><collision name='c'><geometry>"
