@@ -49,6 +49,7 @@ COMMANDS = {
     "sanitize": sanitize.sanitize_command,
     "nightly": nightly.nightly_command,
     "readers": campaigns.readers_command,
+    "python": campaigns.python_command,
     "install": packages.install_command,
 }
 

@@ -45,6 +45,7 @@ DOCS = [
 ]
 OCLGRIND = ["oclgrind"]
 READERS = ["python3-venv"]
+PYTHON = ["python3-venv", "python3-dev"]
 
 # False after --no-install.
 enabled = True

@@ -102,6 +102,7 @@ const std::vector<Library>& libraries() {
       {"nlohmann-json", {"nlohmann/"}, {"src/formats", "src/record", "src/cli", "src/link"}},
       {"CLI11", {"CLI/"}, {"src/cli"}},
       {"spdlog", {"spdlog/"}, {"src/cli"}},
+      {"nanobind", {"nanobind/"}, {"src/python"}},
   };
   return table;
 }

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measures what calls from Python cost; prints the table of python/README.md.
+
+    python3 python/bench.py [seconds of simulated time before the digging world is measured]
+"""
+import sys
+import time
+
+import numpy as np
+
+import navvy
+
+
+def best(call, count=1, rounds=7):
+    """Returns the shortest time of `call` [s] over some rounds of `count` calls each."""
+    times = []
+    for _ in range(rounds):
+        start = time.perf_counter()
+        for _ in range(count):
+            call()
+        times.append((time.perf_counter() - start) / count)
+    return min(times)
+
+
+def row(name, seconds, wanted=""):
+    scale, unit = (1e6, "us") if seconds < 1e-3 else (1e3, "ms")
+    print("| %s | %.3g %s | %s |" % (name, scale * seconds, unit, wanted), flush=True)
+
+
+def main(until):
+    print("| measure | measured | at most |\n|---|---|---|")
+    start = time.perf_counter()
+    world = navvy.Session("trench")
+    row("first session of the process", time.perf_counter() - start)
+    scene = navvy.Scene("trench")
+    row("a second session in the process", best(lambda: navvy.Session(scene).close()), "10 ms")
+    row("one call: `world.time`", best(lambda: world.time, 10000), "1 us")
+    row("`world[7]`", best(lambda: world[7], 10000))
+    name = world.outputs[7].name
+    row("`world[name]`", best(lambda: world[name], 10000))
+    row("`world.step(0)`", best(lambda: world.step(0), 10000), "1 us")
+    while world.time < until:
+        world.step(50)
+    print("| digging: time, particles | %.1f s, %d | |" % (world.time, world.particle_count))
+    dig(world)
+    rollouts(world)
+
+
+def dig(world):
+    out = np.empty(len(world.outputs))
+    heights, columns, first, steps = [], [], [], []
+    for _ in range(40):
+        for into, call in (
+            (steps, world.step),
+            (first, lambda: world.observe(out)),
+            (columns, lambda: world.columns),
+            (heights, lambda: world.heights),
+        ):
+            start = time.perf_counter()
+            call()
+            into.append(time.perf_counter() - start)
+    row("one step", float(np.median(steps)))
+    row("all %d outputs after a step" % len(out), float(np.median(first)), "10 us")
+    row("height view after a step, columns", float(np.median(columns)), "20 us")
+    row("height view after a step, loose soil included", float(np.median(heights)), "300 us")
+    snapshot = world.save()
+    row("save (%.1f MB)" % (len(snapshot) / 1e6), best(world.save), "1 ms")
+    row("load", best(lambda: world.load(snapshot)), "2 ms")
+    row("fork", best(lambda: world.fork().close()), "5 ms")
+    other = world.fork()
+    row("fork into a world", best(lambda: world.fork(into=other)), "2.5 ms")
+    row("state_hash", best(world.state_hash))
+
+
+def rollouts(world, members=8, rows=10, steps=10):
+    inputs = [one.name for one in world.inputs if one.name.endswith("joint/velocity")][:4]
+    controls = np.random.default_rng(1).uniform(-0.2, 0.2, (members, rows, len(inputs)))
+    for workers in (1, 2, 4):
+        call = lambda: navvy.rollout(world, controls, inputs=inputs, steps=steps, workers=workers)
+        call()
+        seconds = best(call, rounds=2)
+        print(
+            "| rollout, %d workers: steps per second | %.0f | |"
+            % (workers, members * rows * steps / seconds),
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main(float(sys.argv[1]) if len(sys.argv) > 1 else 20)

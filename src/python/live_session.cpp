@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/live_session.h"
+
+#include <utility>
+
+#include "core/saved_state.h"
+#include "planner/map_path_planner.h"
+#include "sensor/make_sensors.h"
+
+namespace navvy::python {
+namespace {
+
+/// Keeps context and programs of a device for the whole process, so that a world after the last one
+/// does not build them again.
+void keep_context(const std::string& choice) {
+  // Never destroyed: the driver may be gone when static objects are destroyed.
+  static auto& kept = *new std::vector<std::pair<std::string, device::Device>>;
+  for (const auto& [name, device] : kept)
+    if (name == choice) return;
+  kept.emplace_back(choice, device::Device(choice));
+}
+
+}  // namespace
+
+LiveSession::LiveSession(scene::Scene scene, const Options& options) : device_(options.device) {
+  // Samplers are added before any state is loaded, as a state contains theirs.
+  session_ =
+      std::make_unique<session::Session>(std::move(scene), device_, planner::path_planners());
+  for (std::unique_ptr<sim::Sampler>& one : sensor::make_sensors(session_->world()))
+    session_->add(std::move(one));
+  for (const std::string& link : options.watch) session_->watch(link);
+  start_ = saved(*session_);
+  keep_context(options.device);
+}
+
+void LiveSession::load(const std::vector<char>& state) { load_saved(state, *session_); }
+
+}  // namespace navvy::python
