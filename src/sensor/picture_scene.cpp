@@ -1,10 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor/picture_scene.h"
 
+#include <string>
+
+#include "core/error.h"
+#ifndef NAVVY_SLIM
 #include "render/renderer.h"
+#endif
 #include "sim/frame_builder.h"
 
 namespace navvy::sensor {
+
+#ifdef NAVVY_SLIM
+
+// A slim build has no module render.
+struct PictureScene::State {};
+
+PictureScene::PictureScene(const sim::World& world) : world_(world) {}
+PictureScene::~PictureScene() = default;
+
+void PictureScene::forget() {}
+
+render::Image PictureScene::draw(const Pose&, int, int, double) {
+  throw Error("this build of Navvy draws no pictures, so its colour cameras see nothing: install " +
+              std::string("the full program, or take the camera out of the scene '") +
+              world_.description().file + "'");
+}
+
+#else
 
 struct PictureScene::State {
   explicit State(const sim::World& world) : frames(world) {}
@@ -39,5 +62,7 @@ render::Image PictureScene::draw(const Pose& X_WS, int width, int height, double
   camera.height = height;
   return s.renderer.render(*s.frame, camera);
 }
+
+#endif
 
 }  // namespace navvy::sensor

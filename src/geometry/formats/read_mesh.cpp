@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "core/error.h"
 #include "geometry/formats/mesh_builder.h"
 #include "geometry/formats/read_assimp.h"
 #include "geometry/formats/read_inventor.h"
@@ -34,10 +35,18 @@ bool is_mesh_file(const std::string& path) {
 
 TriangleMesh read_mesh(const std::string& path) {
   const std::string ending = ending_of(path);
+#ifdef NAVVY_SLIM
+  if (ending != ".obj")
+    throw InputError(Fault{Fault::Severity::kError, path, 0, "mesh", ending,
+                           "this build of Navvy reads OBJ files only",
+                           "convert the file to OBJ, or install the full program"});
+  return read_obj(path);
+#else
   if (ending == ".iv" || ending == ".wrl" || ending == ".vrml") return read_inventor(path);
   if (ending == ".stl" || ending == ".dae" || ending == ".gltf" || ending == ".glb")
     return read_assimp(path);
   return read_obj(path);
+#endif
 }
 
 }  // namespace navvy::geometry
