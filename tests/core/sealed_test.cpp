@@ -149,7 +149,7 @@ TEST(Sealed, AnotherVersionIsNamed) {
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
               "snapshot: error: head: '1': another version of Navvy wrote this format; this one "
-              "reads 2 (continue with that version, or record the snapshot again)");
+              "reads 3 (continue with that version, or record the snapshot again)");
   }
 }
 

@@ -147,7 +147,8 @@ if begin "the same with a folder for kernels: a run like any other"; then
 fi
 if begin "pictures there"; then
   mount_folder /out && mount_folder /cache
-  run_case 0 "!warning" ++ POCL_CACHE_DIR=/cache -- run bucket_path --duration 0.02 --device cpu --out /out/run
+  run_case 0 "!warning" ++ POCL_CACHE_DIR=/cache -- run bucket_path --duration 0.02 --device cpu --pictures png \
+    --out /out/run
   [[ -s $root/out/run/frames/side_00000.png ]] || fail "no picture"
 fi
 if begin "what needs no device there: check, scenes, soils"; then

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sensor/picture_scene.h"
+#include "sensor/camera/picture_scene.h"
 #include "sensor/scenes.h"
 
 namespace navvy::sensor {

@@ -201,14 +201,13 @@ TEST_F(ControllerChannels, LeversBeyondTheirBoundsAreRefused) {
     world.inputs().set(lever.name, 55);
     FAIL() << "a lever of 55 was taken";
   } catch (const InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "error: excavator/levers/left_y: value '55': must be from -1 to 1 (unit 1) (send a "
-        "value within the bounds of the input)");
+    EXPECT_STREQ(error.what(),
+                 "error: excavator/levers/left_y: '55': must be from -1 to 1 (unit 1) (send a "
+                 "value within the bounds of the input)");
   }
   world.inputs().set(lever.name, 1 + 1e-9);
   // A joint uses its limit instead, and says so in the log.
-  const int boom = inputs.index("excavator/boom_joint/velocity");
+  const int boom = inputs.index("excavator/boom_joint/position");
   EXPECT_TRUE(inputs[static_cast<std::size_t>(boom)].clamped);
   EXPECT_LT(inputs[static_cast<std::size_t>(boom)].high, 10);
   world.inputs().set(boom, 1000);
