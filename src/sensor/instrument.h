@@ -24,7 +24,7 @@ struct Mounting {
   int machine, link;                 ///< indices of the carrying machine and link
   const scene::Sensor& description;  ///< the sensor as the scene describes it
   std::shared_ptr<RayScene> scene;   ///< what beams meet; shared by all sensors of the world
-  /// What colour cameras see; shared by all sensors of the world.
+  /// Scene that colour cameras draw; shared by all sensors of the world.
   std::shared_ptr<PictureScene> pictures;
 
   /// Returns the handle of the carrying machine.

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sensor/picture_scene.h"
+#include "sensor/camera/picture_scene.h"
 #include "sensor/ray_scene.h"
 #include "sensor/sensor_output.h"
 #include "sensor/sensor_sampler.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/hash.h"
-#include "sensor/picture_scene.h"
+#include "sensor/camera/picture_scene.h"
 #include "sim/timing.h"
 
 namespace navvy::sensor {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensor/camera/picture_scene.h"
 #include "sensor/instrument.h"
-#include "sensor/picture_scene.h"
 
 namespace navvy::sensor {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor/picture_scene.h"
+#include "sensor/camera/picture_scene.h"
 
 #include <string>
 
