@@ -156,6 +156,7 @@ std::vector<Found> find_devices_once() {
     if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr) != CL_SUCCESS)
       continue;
     std::vector<Found> of_platform;
+    of_platform.reserve(devices.size());
     for (cl_device_id device : devices)
       of_platform.push_back({platform, device, describe(platform, device), nullptr});
     if (request.asked()) pair_drivers(of_platform);

@@ -59,6 +59,42 @@ Eigen::Matrix4f stretch(const Vec3& from, const Vec3& axis, double length, doubl
   return m.cast<float>();
 }
 
+/// Returns distances along the camera's axis from the depth buffer, whose first row is the bottom
+/// one and whose scale is finer near the camera.
+DepthImage depth_image(const std::vector<float>& raw, int width, int height) {
+  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+  DepthImage out;
+  out.width = width;
+  out.height = height;
+  out.depth.resize(w * h);
+  constexpr double kNear = View::kNear, kFar = View::kFar;
+  for (std::size_t y = 0; y < h; ++y)
+    for (std::size_t x = 0; x < w; ++x) {
+      const float d = raw[(h - 1 - y) * w + x];
+      out.depth[y * w + x] = d >= 1.0f
+                                 ? std::numeric_limits<float>::infinity()
+                                 : static_cast<float>(kNear * kFar / (kFar - d * (kFar - kNear)));
+    }
+  return out;
+}
+
+/// Returns the picture of RGBA pixels, whose first row is the bottom one.
+Image color_image(const std::uint8_t* pixels, int width, int height) {
+  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+  Image image{width, height, {}};
+  image.rgb.resize(3 * w * h);
+  for (std::size_t y = 0; y < h; ++y) {
+    const std::uint8_t* in = pixels + 4 * w * (h - 1 - y);
+    std::uint8_t* out = image.rgb.data() + 3 * w * y;
+    for (std::size_t x = 0; x < w; ++x, in += 4, out += 3) {
+      out[0] = in[0];
+      out[1] = in[1];
+      out[2] = in[2];
+    }
+  }
+  return image;
+}
+
 }  // namespace
 
 class Renderer::Impl {
@@ -289,39 +325,9 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   draw_.end();
   draw_machines(view, camera, lighting);
 
-  const std::size_t w = static_cast<std::size_t>(view.width),
-                    h = static_cast<std::size_t>(view.height);
-  if (depth != nullptr) {
-    const std::vector<float> raw = context_.depth();
-    depth->width = view.width;
-    depth->height = view.height;
-    depth->depth.resize(w * h);
-    // Converts the scale of the depth buffer, which is finer near the camera, to metres along the
-    // camera's axis.
-    constexpr double kNear = View::kNear, kFar = View::kFar;
-    for (std::size_t y = 0; y < h; ++y)
-      for (std::size_t x = 0; x < w; ++x) {
-        const float d = raw[(h - 1 - y) * w + x];
-        depth->depth[y * w + x] =
-            d >= 1.0f ? std::numeric_limits<float>::infinity()
-                      : static_cast<float>(kNear * kFar / (kFar - d * (kFar - kNear)));
-      }
-  }
+  if (depth != nullptr) *depth = depth_image(context_.depth(), view.width, view.height);
   context_.finish();
-
-  // The first row of OpenGL is the bottom one.
-  Image image{view.width, view.height, {}};
-  image.rgb.resize(3 * w * h);
-  const std::uint8_t* pixels = context_.pixels().data();
-  for (std::size_t y = 0; y < h; ++y) {
-    const std::uint8_t* in = pixels + 4 * w * (h - 1 - y);
-    std::uint8_t* out = image.rgb.data() + 3 * w * y;
-    for (std::size_t x = 0; x < w; ++x, in += 4, out += 3) {
-      out[0] = in[0];
-      out[1] = in[1];
-      out[2] = in[2];
-    }
-  }
+  Image image = color_image(context_.pixels().data(), view.width, view.height);
   stats.draw_ms = 1e3 * watch.seconds() - stats.prepare_ms;
   return image;
 }

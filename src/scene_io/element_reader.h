@@ -101,6 +101,7 @@ bool require_name(const Element& at, const std::string& name, const std::string&
 template <class List>
 std::vector<std::string> names_in_list(const List& objects) {
   std::vector<std::string> names;
+  names.reserve(objects.size());
   for (const auto& object : objects) names.push_back(object.name);
   return names;
 }

@@ -12,7 +12,6 @@
 namespace navvy::sensor {
 namespace {
 
-using testing::body;
 using testing::mast;
 using testing::scene_of;
 using testing::world_of;

@@ -132,7 +132,8 @@ std::vector<bool> visible_cells(const sim::World& world) {
 double relief(const heightfield::TerrainView& ground, double x, double y) {
   double low = ground.sample(x, y), high = low;
   for (int i = 0; i < 9; ++i) {
-    const double z = ground.sample(x + 0.05 * (i % 3 - 1), y + 0.05 * (i / 3 - 1));
+    const int column = i % 3 - 1, row = i / 3 - 1;
+    const double z = ground.sample(x + 0.05 * column, y + 0.05 * row);
     low = std::min(low, z);
     high = std::max(high, z);
   }

@@ -69,6 +69,7 @@ std::vector<const SoNode*> nodes_of(SoNode& root) {
   search.setSearchingAll(true);
   search.apply(&root);
   std::vector<const SoNode*> nodes;
+  nodes.reserve(static_cast<std::size_t>(search.getPaths().getLength()));
   for (int i = 0; i < search.getPaths().getLength(); ++i)
     nodes.push_back(search.getPaths()[i]->getTail());
   return nodes;

@@ -155,6 +155,7 @@ TEST_F(ReadMesh, ThreadsReadInventorFilesOneAfterTheOther) {
   const std::string file = write("a.wrl", kVrml);
   std::vector<std::size_t> triangles(4);
   std::vector<std::thread> threads;
+  threads.reserve(triangles.size());
   for (std::size_t& count : triangles)
     threads.emplace_back([&count, &file] { count = read_mesh(file).triangles.size(); });
   for (std::thread& thread : threads) thread.join();
