@@ -352,7 +352,7 @@ bool GroundSurface::sample(float x, float y, float& height, float& sun) const {
   const int ix = static_cast<int>(std::floor(u + 0.5f)),
             iy = static_cast<int>(std::floor(v + 0.5f));
   if (ix < 0 || iy < 0 || ix >= nx_ || iy >= ny_) return false;
-  height = height_[index(ix, iy)];
+  height = top_[index(ix, iy)];
   sun = static_cast<float>(sun_[index(ix, iy)]) / 255.0f;
   return true;
 }

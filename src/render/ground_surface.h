@@ -91,9 +91,9 @@ class GroundSurface {
   /// Returns the lit colour (RGB, 0 to 1) of a wall at a column. A wall looks like freshly cut
   /// soil; `normal` is its unit normal in W.
   Vec3f wall_color(int ix, int iy, const Vec3f& normal) const;
-  /// Finds the column at the point (x, y) in W [m], and returns its height in W [m] and the visible
-  /// fraction of the sun (0 to 1) in the last two parameters. Returns false, without setting them,
-  /// if the point is outside the ground.
+  /// Finds the column at the point (x, y) in W [m], and returns in the last two parameters the
+  /// height in W [m] of its surface with the loose soil on it, and the visible fraction of the sun
+  /// (0 to 1). Returns false, without setting them, if the point is outside the ground.
   bool sample(float x, float y, float& height, float& sun) const;
   /// Returns the columns around the point (x, y) in W [m], without the loose soil on them. A point
   /// outside the ground has those at its edge. The ground must have two columns each way at least.
