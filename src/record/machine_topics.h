@@ -21,8 +21,8 @@ namespace navvy::record {
 /// "<machine>/base_link", below it the links in the order of the joints. Frames that never move
 /// relative to their parents go to /tf_static once, the others to /tf.
 ///
-/// "odom" is the frame of the machine's own odometry. It coincides with "map" when the bag begins.
-/// For a machine with encoders on two wheels (control::wheel_odometry) it drifts from then on: the
+/// "odom" is the frame of the machine's own odometry. It coincides with "map" when the bag begins,
+/// and drifts from then on for a machine with encoders on two wheels (control::wheel_odometry): the
 /// transform from odom to base_link is the estimate from the registers of the encoders, level and
 /// at the height of the start, and that from map to odom is the difference to the true pose. For
 /// other machines, the estimate is the true pose, and odom always coincides with map.
