@@ -168,6 +168,8 @@ function(navvy_tests name)
       target_link_libraries(navvy_test_headers PRIVATE navvy_flags navvy::core GTest::gtest)
       target_precompile_headers(navvy_test_headers PRIVATE ${NAVVY_COMMON_HEADERS} <gtest/gtest.h>)
     endif()
+    # Links core for its include directories: clang-tidy reads the precompiled headers as text.
+    target_link_libraries(${name} PRIVATE navvy::core)
     target_precompile_headers(${name} REUSE_FROM navvy_test_headers)
   endif()
   include(GoogleTest)
