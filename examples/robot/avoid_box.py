@@ -23,10 +23,11 @@ def main():
     parser.add_argument("--goal", nargs=2, type=float, default=[3.5, -2.0], help="[m]")
     parser.add_argument("--crate", default="-0.5 -2", help="where the crate is put: x y [m]")
     parser.add_argument("--navvy", default="navvy")
+    parser.add_argument("--out", default="out/avoid_box", help="folder of the results")
     options = parser.parse_args()
     command = [options.navvy, "run", options.scene, "--control", "stdio", "--control-rate", "10"]
     command += ["--no-render", "--quiet", "--set", f"machine.crate.pose={options.crate} 0 0 0 0.4"]
-    command += ["--duration", "60"]
+    command += ["--duration", "60", "--out", options.out]
     navvy = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def send(line):

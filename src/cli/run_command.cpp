@@ -18,6 +18,7 @@
 #include "core/stopwatch.h"
 #include "link/control_stdio.h"
 #include "link/published_map.h"
+#include "link/sensor_publisher.h"
 #include "run/simulation.h"
 #include "run/start_checks.h"
 #include "run/stop_signals.h"
@@ -32,6 +33,8 @@ struct RunOptions {
   std::string control, pictures;
   double control_rate = 50;
   link::PublishOptions publish;
+  // Address at which readings of sensors are published; empty if they are not.
+  std::string publish_sensors;
   bool quiet = false;
 };
 
@@ -62,7 +65,7 @@ class ProgressLine {
   Stopwatch watch_;
 };
 
-/// Adds the parts of the program to a run: progress line, signals, and the published map.
+/// Adds the parts of the program to a run: progress line, signals, and what is published.
 class ProgramObserver final : public run::RunObserver {
  public:
   explicit ProgramObserver(bool quiet) : line_(quiet), signals_(leave) {}
@@ -70,19 +73,26 @@ class ProgramObserver final : public run::RunObserver {
   void publish(const link::PublishOptions& options, const session::Session& session) {
     map_.emplace(options, session);
   }
+  void publish_sensors(const std::string& address, const sim::World& world) {
+    sensors_.emplace(world, address);
+    log_info("readings of sensors on port " + std::to_string(sensors_->port()));
+  }
   void show(const run::RunProgress& progress) { line_.show(progress); }
 
   void after_step() override {
     if (map_) map_->observe();
+    if (sensors_) sensors_->publish();
   }
   void restart() override {
     if (map_) map_->restart();
+    if (sensors_) sensors_->restart();
   }
   void closing() override {
     line_.end();
     signals_.obeyed();
   }
   void finish() override {
+    if (sensors_) sensors_->finish();
     if (map_) map_->finish();
   }
 
@@ -96,6 +106,7 @@ class ProgramObserver final : public run::RunObserver {
   ProgressLine line_;
   run::StopSignals signals_;
   std::optional<link::PublishedMap> map_;
+  std::optional<link::SensorPublisher> sensors_;
 };
 
 /// Returns the folder of the results. It is named by the scene, not by its file: a scene read from
@@ -193,6 +204,8 @@ int run_scene(RunOptions options) {
   // Cheap checks come before the scene is loaded.
   run::check_resume(wanted.resume);
   link::require_publishable(options.publish);
+  if (!options.publish_sensors.empty())
+    link::SensorPublisher::require_address(options.publish_sensors);
   scene::Scene scene = load(options, wanted.scene_text);
   if (wanted.folder.empty()) wanted.folder = default_out(scene);
   wanted.device = options.scene.device;
@@ -203,6 +216,8 @@ int run_scene(RunOptions options) {
   simulation.attach(program);
   try {
     if (!options.publish.place.empty()) program.publish(options.publish, simulation.session());
+    if (!options.publish_sensors.empty())
+      program.publish_sensors(options.publish_sensors, simulation.world());
   } catch (const std::exception& error) {
     // The place was free when it was checked, but may be taken by now.
     simulation.fail(error.what());
@@ -276,6 +291,9 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   command
       ->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")
       ->needs(publish);
+  command->add_option("--publish-sensors", options->publish_sensors,
+                      "send each reading of the sensors to other processes: tcp:PORT (on "
+                      "127.0.0.1) or tcp:HOST:PORT");
   command->add_option("--watch", options->simulation.watch,
                       "MACHINE/LINK: add pose, velocity and angular velocity of this link to the "
                       "outputs; repeatable");

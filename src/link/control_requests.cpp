@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/sealed.h"
+#include "link/array_header.h"
 #include "link/base64.h"
 #include "map/map_queries.h"
 #include "map/map_sources.h"
@@ -70,35 +70,9 @@ void require_snapshot_or_nothing(const json& what, const std::string& path) {
          "name a new file, or remove this one");
 }
 
-/// Returns what an array is, without its values.
-json described(const sim::ArrayChannel& channel) {
-  return {{"type", sim::name_of(channel.type)},
-          {"shape", channel.shape},
-          {"unit", channel.unit},
-          {"frame", channel.frame},
-          {"rate_hz", channel.rate},
-          {"meaning", channel.meaning}};
-}
-
-/// Returns what an array is and its latest value's stamps, without the value.
-json stamped(const sim::ArrayView& view) {
-  static_assert(std::endian::native == std::endian::little,
-                "arrays are sent as they are in memory");
-  // Pose of the array's frame in W at the time of its stamp.
-  const Eigen::Quaterniond q(view.X_WF().linear());
-  const Vec3 p = view.X_WF().translation();
-  json out = described(view.channel());
-  out["sequence"] = view.sequence();
-  out["time"] = view.time();
-  out["delivered"] = view.delivered();
-  out["position_m"] = {p.x(), p.y(), p.z()};
-  out["quaternion_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
-  return out;
-}
-
 /// Returns what an array is and its latest value as text.
 json value_of(const sim::ArrayView& view) {
-  json out = stamped(view);
+  json out = array_header(view);
   out["data_base64"] = base64(view.bytes());
   return out;
 }
@@ -315,7 +289,7 @@ json ControlRequests::frames(const json& what) {
   std::string bytes;
   for (const std::string& name : names_in("frames", what, all, kMaxArrays)) {
     const sim::ArrayView view = all.view(name);
-    json one = stamped(view);
+    json one = array_header(view);
     one["name"] = name;
     one["bytes"] = view.bytes().size();
     list.push_back(std::move(one));
@@ -351,7 +325,7 @@ json ControlRequests::info() const {
   json layers = json::object(), cameras = json::array(), arrays = json::object(),
        sensors = json::object();
   for (const sim::ArrayChannel& channel : world.arrays().channels())
-    arrays[channel.name] = described(channel);
+    arrays[channel.name] = array_description(channel);
   for (const sensor::SensorOutput& one : sensor::sensor_outputs(world)) {
     json names = json::array();
     for (const sensor::SensorArray& array : one.arrays)

@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// One thread accepts readers, and each reader has a thread of its own, so that a slow reader delays
-// no other.
 #include "link/map_publisher.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <atomic>
-#include <cerrno>
-#include <charconv>
-#include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <list>
+#include <memory>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -25,60 +11,21 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/log.h"
-#include "core/stopwatch.h"
 #include "formats/map_patch.h"
 #include "formats/part_file.h"
+#include "link/tcp_server.h"
 
 namespace navvy::link {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Interval at which a waiting thread checks whether it must end [s].
-constexpr double kGlance = 0.2;
+/// Option that names the destination.
+constexpr const char* kOption = "--publish";
 
 [[noreturn]] void refuse(const std::string& place, const std::string& rule,
                          const std::string& remedy) {
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "--publish", place, rule, remedy});
-}
-
-/// Parses "tcp:5005" or "tcp:0.0.0.0:5005".
-sockaddr_in address_of(const std::string& place) {
-  std::string host = "127.0.0.1", port = place.substr(4);
-  if (const std::size_t colon = port.rfind(':'); colon != std::string::npos) {
-    host = port.substr(0, colon);
-    port = port.substr(colon + 1);
-  }
-  sockaddr_in out{};
-  out.sin_family = AF_INET;
-  unsigned number = 0;
-  const auto [end, failed] = std::from_chars(port.data(), port.data() + port.size(), number);
-  if (port.empty() || failed != std::errc() || end != port.data() + port.size() || number > 65535)
-    refuse(place, "is not a port from 0 to 65535", "e.g. tcp:5005");
-  if (inet_pton(AF_INET, host.c_str(), &out.sin_addr) != 1)
-    refuse(place, "is not a numeric IPv4 address", "e.g. tcp:0.0.0.0:5005 for every interface");
-  out.sin_port = htons(static_cast<std::uint16_t>(number));
-  return out;
-}
-
-/// Opens a socket that listens, and writes its port to `port`.
-int listening(const std::string& place, int& port) {
-  sockaddr_in address = address_of(place);
-  const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const int yes = 1;
-  if (file >= 0) ::setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  if (file < 0 || ::bind(file, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::listen(file, 16) != 0) {
-    const int code = errno;
-    if (file >= 0) ::close(file);
-    refuse(place, std::string("cannot listen there: ") + std::strerror(code),
-           "choose another port, or 0 for a free one");
-  }
-  socklen_t length = sizeof address;
-  ::getsockname(file, reinterpret_cast<sockaddr*>(&address), &length);
-  port = ntohs(address.sin_port);
-  return file;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, kOption, place, rule, remedy});
 }
 
 /// Checks that the folder is new or empty.
@@ -102,24 +49,6 @@ void require_folder(const std::string& place) {
         "name a new folder");
 }
 
-bool is_address(const std::string& place) { return place.rfind("tcp:", 0) == 0; }
-
-/// Makes the system notice a reader whose machine disappeared without closing, after about a
-/// minute.
-void watch_connection(int file) {
-  const int yes = 1, idle = 30, every = 10, times = 3;
-  ::setsockopt(file, SOL_SOCKET, SO_KEEPALIVE, &yes, sizeof yes);
-  ::setsockopt(file, IPPROTO_TCP, TCP_KEEPIDLE, &idle, sizeof idle);
-  ::setsockopt(file, IPPROTO_TCP, TCP_KEEPINTVL, &every, sizeof every);
-  ::setsockopt(file, IPPROTO_TCP, TCP_KEEPCNT, &times, sizeof times);
-}
-
-/// Returns false when the other end has closed its direction.
-bool is_there(int file) {
-  pollfd ask{file, POLLRDHUP, 0};
-  return ::poll(&ask, 1, 0) <= 0;
-}
-
 }  // namespace
 
 struct MapPublisher::State {
@@ -127,40 +56,31 @@ struct MapPublisher::State {
 
   map::UpdateFeed& feed;
   std::vector<map::MapLayer> layers;
-  std::string folder;
-  int listener = -1, port = 0;
   // Protects `fault`.
   mutable std::mutex mutex;
   std::string fault;
-  struct Reader {
-    std::thread thread;
-    std::atomic<bool> done{false};
-  };
-  // Used by the accepting thread, and after its end by the thread that joined it.
-  std::list<Reader> readers;
-  std::thread main;
+  // Either a server, or a folder and the thread that writes to it.
+  std::unique_ptr<TcpServer> server;
+  std::string folder;
+  std::thread writer;
 
   void serve_files();
-  void accept_readers();
-  /// Joins the threads of readers that are gone.
-  void sweep();
-  void serve(int file, std::atomic<bool>& done);
-  bool send_all(int file, const char* bytes, std::size_t count, double& waited) const;
+  void serve(TcpReader& reader) const;
   /// Writes a patch piece by piece; the file is complete or absent. @throws FileError.
   void write_patch(const std::string& path, const map::MapUpdate& update) const;
   /// Delivers updates one after the other until the feed is closed and nothing is left. `deliver`
   /// returns false to end it, and so does `alive`, which is called while there is nothing to
   /// deliver.
   template <class Deliver, class Alive>
-  void follow(const Deliver& deliver, const Alive& alive);
+  void follow(const Deliver& deliver, const Alive& alive) const;
 };
 
 template <class Deliver, class Alive>
-void MapPublisher::State::follow(const Deliver& deliver, const Alive& alive) {
+void MapPublisher::State::follow(const Deliver& deliver, const Alive& alive) const {
   for (std::uint64_t seen = 0;;) {
     // Checked before the wait, so that updates published before the end still go out.
     const bool last = feed.closed();
-    const map::UpdateFeed::Update update = feed.wait(seen, kGlance);
+    const map::UpdateFeed::Update update = feed.wait(seen, TcpServer::kGlance);
     if (update != nullptr) {
       if (!deliver(*update)) return;
       seen = update->sequence;
@@ -206,101 +126,22 @@ void MapPublisher::State::write_patch(const std::string& path, const map::MapUpd
   file.commit();
 }
 
-/// Returns false when the reader is gone, or too slow at the end. `waited` counts the time it took
-/// since then [s].
-bool MapPublisher::State::send_all(int file, const char* bytes, std::size_t count,
-                                   double& waited) const {
-  Stopwatch lap;
-  for (std::size_t at = 0; at < count;) {
-    pollfd out{file, POLLOUT, 0};
-    const int ready = ::poll(&out, 1, static_cast<int>(1000 * kGlance));
-    // While the run goes on a reader may take as long as it wants.
-    waited = feed.closed() ? waited + lap.seconds() : 0;
-    lap.restart();
-    if (waited > kPatience) return false;
-    if (ready <= 0) continue;
-    const ssize_t sent = ::send(file, bytes + at, count - at, MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-    if (sent < 0) return false;
-    at += static_cast<std::size_t>(sent);
-  }
-  return true;
-}
-
 // A reader that connects starts from map number 0 and so gets a whole map first.
-void MapPublisher::State::serve(int file, std::atomic<bool>& done) {
-  const int yes = 1;
-  ::setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-  watch_connection(file);
-  try {
-    double waited = 0;
-    const formats::PatchSink sink = [&](const char* bytes, std::size_t count) {
-      return send_all(file, bytes, count, waited);
-    };
-    follow([&](const map::MapUpdate& update) { return formats::send_patch(update, layers, sink); },
-           [&] { return is_there(file); });
-  } catch (const std::exception&) {
-    // There is no memory for its patch: the reader is dropped and may connect again.
-  }
-  ::close(file);
-  done = true;
-}
-
-// Runs in the accepting thread, so that no reader joins itself.
-void MapPublisher::State::sweep() {
-  readers.remove_if([](Reader& reader) {
-    if (!reader.done) return false;
-    reader.thread.join();
-    return true;
-  });
-}
-
-// Poll with a timeout, because closing the listener from another thread would not interrupt
-// `accept`.
-void MapPublisher::State::accept_readers() {
-  // Logged once until a reader is accepted again: one that retries for ever would fill the log.
-  bool warned = false;
-  const auto warn_once = [&warned](const std::string& what) {
-    if (!std::exchange(warned, true)) log_warning(what);
+void MapPublisher::State::serve(TcpReader& reader) const {
+  const formats::PatchSink sink = [&](const char* bytes, std::size_t count) {
+    return reader.send(bytes, count);
   };
-  while (!feed.closed()) {
-    pollfd in{listener, POLLIN, 0};
-    const int ready = ::poll(&in, 1, static_cast<int>(1000 * kGlance));
-    sweep();
-    if (ready <= 0) continue;
-    const int file = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
-    if (file < 0) {
-      if (errno == EINTR || errno == EAGAIN || errno == ECONNABORTED) continue;
-      warn_once(std::string("a reader of the map cannot be accepted: ") + std::strerror(errno));
-      // The connection stays in the queue, and the next poll would find it at once.
-      std::this_thread::sleep_for(std::chrono::duration<double>(kGlance));
-      continue;
-    }
-    if (readers.size() >= kMostReaders) {
-      warn_once("a reader of the map was refused: " + std::to_string(kMostReaders) +
-                " are connected");
-      ::close(file);
-      continue;
-    }
-    Reader& reader = readers.emplace_back();
-    try {
-      reader.thread = std::thread([this, file, &reader] { serve(file, reader.done); });
-      warned = false;
-    } catch (const std::system_error& error) {
-      readers.pop_back();
-      ::close(file);
-      warn_once(std::string("a reader of the map cannot be accepted: ") + error.what());
-    }
-  }
+  follow([&](const map::MapUpdate& update) { return formats::send_patch(update, layers, sink); },
+         [&] { return reader.is_there(); });
 }
 
 MapPublisher::MapPublisher(map::UpdateFeed& feed, const std::string& place,
                            std::vector<map::MapLayer> layers)
     : state_(std::make_unique<State>(feed, std::move(layers))) {
   State& s = *state_;
-  if (is_address(place)) {
-    s.listener = listening(place, s.port);
-    s.main = std::thread([&s] { s.accept_readers(); });
+  if (TcpServer::is_address(place)) {
+    s.server = std::make_unique<TcpServer>(kOption, place, "a reader of the map",
+                                           [&s](TcpReader& reader) { s.serve(reader); });
     return;
   }
   require_folder(place);
@@ -308,17 +149,14 @@ MapPublisher::MapPublisher(map::UpdateFeed& feed, const std::string& place,
   std::error_code failed;
   fs::create_directories(place, failed);
   if (failed) throw FileError("cannot make '" + place + "': " + failed.message());
-  s.main = std::thread([&s] { s.serve_files(); });
+  s.writer = std::thread([&s] { s.serve_files(); });
 }
 
 MapPublisher::~MapPublisher() { finish(); }
 
 void MapPublisher::require_place(const std::string& place) {
-  int port = 0;
-  // The port is released again. Another process could take it before the publisher starts, which
-  // its constructor then reports.
-  if (is_address(place))
-    ::close(listening(place, port));
+  if (TcpServer::is_address(place))
+    TcpServer::require_address(kOption, place);
   else
     require_folder(place);
 }
@@ -327,13 +165,11 @@ void MapPublisher::require_place(const std::string& place) {
 void MapPublisher::finish() {
   State& s = *state_;
   s.feed.close();
-  if (s.main.joinable()) s.main.join();
-  for (State::Reader& reader : s.readers) reader.thread.join();
-  s.readers.clear();
-  if (s.listener >= 0) ::close(std::exchange(s.listener, -1));
+  if (s.server) s.server->close();
+  if (s.writer.joinable()) s.writer.join();
 }
 
-int MapPublisher::port() const { return state_->port; }
+int MapPublisher::port() const { return state_->server ? state_->server->port() : 0; }
 
 std::string MapPublisher::fault() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);

@@ -2,7 +2,6 @@
 // Sends map updates of a running simulation to other processes, over TCP or as numbered files.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,12 +13,10 @@ namespace navvy::link {
 /// Sends every update of a map feed to all readers as patches (formats/map_patch.h). It uses
 /// threads of its own, so the thread that publishes updates never waits for readers.
 ///
-/// The destination `tcp:PORT` listens for readers on 127.0.0.1, and `tcp:HOST:PORT` on the IPv4
-/// address HOST; port 0 selects a free port. Each reader that connects gets a patch with the whole
-/// map first, and then patches that each continue the one before. A slow reader gets one patch for
-/// all updates that it missed. A reader that disconnects, or closes its sending direction, is
-/// dropped within a second and may connect again. If kMostReaders are connected, further ones are
-/// refused, which is logged.
+/// The destination `tcp:PORT` or `tcp:HOST:PORT` is the address of a TcpServer. Each reader that
+/// connects gets a patch with the whole map first, and then patches that each continue the one
+/// before. A slow reader gets one patch for all updates that it missed. A reader that disconnects,
+/// or closes its sending direction, is dropped within a second and may connect again.
 ///
 /// Any other destination is a folder. It gets the files `patch_000000001.navvymap`,
 /// `patch_000000002.navvymap` and so on, to be read in this order. The first one contains the whole
@@ -40,7 +37,8 @@ class MapPublisher {
   MapPublisher& operator=(const MapPublisher&) = delete;
 
   /// Closes the feed, sends the remaining updates, and ends the threads. Each TCP reader gets at
-  /// most kPatience seconds for this. Later calls do nothing. After this call, `fault` is final.
+  /// most TcpServer::kPatience seconds for this. Later calls do nothing. After this call, `fault`
+  /// is final.
   void finish();
 
   /// Returns the port on which readers can connect; 0 if the destination is a folder.
@@ -49,17 +47,13 @@ class MapPublisher {
   /// was none. TCP readers that disconnect are not an error.
   std::string fault() const;
 
-  /// Maximum time that `finish` waits for a TCP reader [s].
-  static constexpr double kPatience = 2;
-  /// Maximum number of TCP readers connected at the same time.
-  static constexpr std::size_t kMostReaders = 64;
   /// Name of the file that marks the end of the patches in a folder.
   static constexpr const char* kEnd = "end";
 
  private:
-  /// Sockets and threads of the publisher.
+  /// Server or thread of the publisher.
   struct State;
-  /// Sockets and threads of the publisher; never null.
+  /// Server or thread of the publisher; never null.
   std::unique_ptr<State> state_;
 };
 

@@ -6,7 +6,6 @@
 #include <netinet/in.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -26,6 +25,8 @@
 #include "folder.h"
 #include "formats/map_patch.h"
 #include "heightfield/maps.h"
+#include "link/tcp_client.h"
+#include "link/tcp_server.h"
 #include "log_lines.h"
 #include "map/feeds.h"
 #include "map/grounds.h"
@@ -38,6 +39,8 @@ using heightfield::Ground;
 using map::testing::dig;
 using map::testing::kTwo;
 using map::testing::two_layers;
+using testing::connected;
+using testing::receive;
 
 bool has_numpy() { return std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") == 0; }
 
@@ -93,34 +96,10 @@ TEST(MapPublisher, ServesTheExampleReaderOverTcp) {
       feed);
 }
 
-/// A connection to a publisher; reading times out after 10 s.
-int connected(int port) {
-  const int file = ::socket(AF_INET, SOCK_STREAM, 0);
-  const timeval patience{10, 0};
-  ::setsockopt(file, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  EXPECT_EQ(::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  return file;
-}
-
-/// Returns true if this many bytes arrived.
-bool receive(int file, std::size_t bytes) {
-  std::vector<char> buffer(bytes);
-  for (std::size_t at = 0; at < bytes;) {
-    const ssize_t got = ::recv(file, buffer.data() + at, bytes - at, 0);
-    if (got <= 0) return false;
-    at += static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
 /// Reads this many bytes and disconnects.
 void read_and_leave(int port, std::size_t bytes) {
   const int file = connected(port);
-  EXPECT_TRUE(receive(file, bytes));
+  EXPECT_EQ(receive(file, bytes).size(), bytes);
   ::close(file);
 }
 
@@ -149,21 +128,20 @@ TEST(MapPublisher, RemovesDisconnectedReadersWhileNothingIsPublished) {
   MapPublisher publisher(feed, "tcp:0", kTwo);
   const std::ptrdiff_t alone = threads();
   // Each reader takes its whole map and disconnects; nothing changes meanwhile.
-  for (std::size_t i = 0; i < MapPublisher::kMostReaders; ++i)
-    read_and_leave(publisher.port(), whole);
+  for (std::size_t i = 0; i < TcpServer::kMostReaders; ++i) read_and_leave(publisher.port(), whole);
   EXPECT_TRUE(comes_true([&] { return threads() == alone; }))
       << threads() << " threads, " << alone << " before";
   // As many new readers can connect.
   std::vector<int> readers;
-  for (std::size_t i = 0; i < MapPublisher::kMostReaders; ++i) {
+  for (std::size_t i = 0; i < TcpServer::kMostReaders; ++i) {
     readers.push_back(connected(publisher.port()));
-    ASSERT_TRUE(receive(readers.back(), whole)) << i;
+    ASSERT_EQ(receive(readers.back(), whole).size(), whole) << i;
   }
   EXPECT_TRUE(logged.lines().empty()) << logged.lines()[0];
   // One more is refused, with one log message.
   for (int i = 0; i < 2; ++i) {
     const int late = connected(publisher.port());
-    EXPECT_FALSE(receive(late, 1));
+    EXPECT_EQ(receive(late, 1), "");
     ::close(late);
   }
   ASSERT_EQ(logged.lines().size(), 1u);
@@ -206,7 +184,7 @@ TEST(MapPublisher, WaitsIfNoFileCanBeOpened) {
   ASSERT_EQ(logged.lines().size(), 1u);
   EXPECT_NE(logged.lines()[0].find("Too many open files"), std::string::npos) << logged.lines()[0];
   // It waited in the queue and receives its map.
-  EXPECT_TRUE(receive(file, 12));
+  EXPECT_EQ(receive(file, 12).size(), 12u);
   ::close(file);
 }
 

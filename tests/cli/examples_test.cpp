@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The example programs of examples/robot, as users run them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/program_run.h"
+#include "paths.h"
+#include "process.h"
+#include "text_of.h"
+
+namespace navvy::test {
+namespace {
+
+class Examples : public ProgramRun {
+ protected:
+  /// Runs a program of examples/robot by Debian's Python and returns its exit status. What it
+  /// prints is in the file `example`.
+  int example(const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), source_dir() + "/examples/robot/" + name);
+    return wait_for(
+        test::start({"/usr/bin/python3", arguments, environment_, "/dev/null",
+                     (directory_ / "example").string(), (directory_ / "example_errors").string()}));
+  }
+  std::string printed() const { return text_of(directory_ / "example"); }
+};
+
+// The crate stands in the way twice, at places that the program is not told.
+TEST_F(Examples, ARobotDrivesAroundAMovedBoxByItsScanAlone) {
+  for (const std::string crate : {"-0.5 -2", "0.6 -2.2"}) {
+    ASSERT_EQ(example("avoid_box.py", {"--navvy", NAVVY_PROGRAM, "--crate", crate, "--out", out()}),
+              0)
+        << text_of(directory_ / "example_errors");
+    double left = 9, nearest = 0;
+    ASSERT_EQ(std::sscanf(printed().c_str(),
+                          "%lf m from its goal; nothing came closer to the scanner than %lf m",
+                          &left, &nearest),
+              2)
+        << printed();
+    EXPECT_LE(left, 0.2) << crate;
+    // The scanner stands 0.14 m before the middle of a robot that is 0.36 m wide.
+    EXPECT_GE(nearest, 0.25) << crate;
+  }
+}
+
+TEST_F(Examples, AnotherProcessFollowsTheScansOfARun) {
+  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "NumPy is missing";
+  const pid_t run = start({"run", "paper/diff_physics", "--no-render", "--duration", "20", "--out",
+                           out(), "--publish-sensors", "tcp:0"});
+  const std::string before = "readings of sensors on port ";
+  std::string port;
+  for (int i = 0; i < 600 && port.empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const std::string text = complained();
+    if (const std::size_t at = text.find(before); at != std::string::npos)
+      if (const std::size_t end = text.find('\n', at); end != std::string::npos)
+        port = text.substr(at + before.size(), end - at - before.size());
+  }
+  ASSERT_FALSE(port.empty()) << complained();
+  EXPECT_EQ(example("follow_scans.py", {port, "robot/laser/ranges"}), 0)
+      << text_of(directory_ / "example_errors");
+  EXPECT_EQ(wait_for(run), 0) << complained();
+  // The reader connects after the start, and the run does not wait for it.
+  const std::string text = printed();
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  EXPECT_GT(lines, 10) << text;
+  EXPECT_NE(text.find("robot/laser/ranges"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace navvy::test
