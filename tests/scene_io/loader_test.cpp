@@ -420,41 +420,6 @@ TEST(Overrides, SelectAMachineByItsWholeName) {
             std::string::npos);
 }
 
-const std::string kSite =
-    "<navvy:soil ref=\"loam\"/><navvy:ground><size_m>20 20</size_m></navvy:ground>";
-
-TEST(Loader, FillsInAPresetOfASensorAndIgnoresOtherSensorsOfSdf) {
-  const scene::Scene world = load(kSite + R"(<model name="m"><static>true</static><link name="l">
-      <sensor name="eye" type="thermal_camera"><camera/></sensor>
-      <sensor name="laser"><navvy:preset>sick_lms200</navvy:preset><pose degrees="true">0 0 1 0 0 90
-      </pose><update_rate>25</update_rate><lidar><range><max>6</max></range></lidar></sensor>
-      </link></model>)");
-  ASSERT_EQ(world.machines[0].machine.links[0].sensors.size(), 1u);
-  const scene::Sensor& sensor = world.machines[0].machine.links[0].sensors[0];
-  EXPECT_EQ(sensor.type, "lidar");
-  // Its own elements go before those of the preset.
-  EXPECT_EQ(sensor.rate, 25);
-  EXPECT_NEAR(sensor.X_LS.linear()(1, 0), 1, 1e-12);
-  const auto& lidar = std::get<scene::Lidar>(sensor.kind);
-  EXPECT_EQ(lidar.horizontal.samples, 361);
-  EXPECT_EQ(lidar.range.max, 6);
-  EXPECT_EQ(lidar.range.resolution, 0.001);
-  EXPECT_EQ(lidar.noise.type, "gaussian");
-  EXPECT_EQ(lidar.noise.stddev, 0.005);
-}
-
-TEST(Loader, MovesTheSensorsOfASceneToTheirLinks) {
-  const scene::Scene world =
-      load(kSite + R"(<include><uri>model://robot</uri><pose>0 0 0 0 0 0</pose>
-      <navvy:sensor name="laser" link="chassis"><navvy:preset>paper_laser</navvy:preset>
-      <pose>0.14 0 0.31 0 0 0</pose></navvy:sensor></include>)");
-  const scene::Machine& robot = world.machines[0].machine;
-  const auto index = static_cast<std::size_t>(robot.link_index("chassis"));
-  ASSERT_EQ(robot.links[index].sensors.size(), 1u);
-  EXPECT_EQ(std::get<scene::Lidar>(robot.links[index].sensors[0].kind).range.max, 20);
-  EXPECT_TRUE(robot.has_sensors());
-}
-
 TEST(Loader, ADirectionsFaultIsReportedOnce) {
   for (const char* direction : {"0 0 0", "0 0 x", "0 0"}) {
     const std::string message = failure(
