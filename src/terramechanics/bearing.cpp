@@ -16,6 +16,8 @@ constexpr int kSlices =
     // Slices of the arc ahead of a rim, an even number: within 0.5 % of the integral, 2 % near the
     // slip that ends bulldozing.
     8;
+// Slices of the sunken segment of a side wall: within 1 % of the integral.
+constexpr int kWallSlices = 16;
 constexpr double kNoFriction = 1e-6;
 
 }  // namespace
@@ -109,6 +111,22 @@ double bulldozing(const SoilState& ground, double width, double radius, double d
     sum += weight * resists * mobilised_share(pushed, ground.soil->janosi_k) * at_sin;
   }
   return width * radius * slice / 3 * sum;
+}
+
+double side_wall_resistance(const SoilState& ground, double radius, double depth, double aside) {
+  if (ground.soil == nullptr || !(depth > 0) || !(aside != 0)) return 0;
+  const double half = std::sqrt(std::max(0.0, (2 * radius - depth) * depth));
+  const double slice = 2 * half / kWallSlices;
+  const PassivePressure p = passive_pressure(ground);
+  double sum = 0;
+  for (int i = 0; i < kWallSlices; ++i) {
+    // From the front, where the soil meets the wall.
+    const double passed = (i + 0.5) * slice, x = half - passed;
+    const double z = std::sqrt(radius * radius - x * x) - (radius - depth);
+    sum += z * (p.cohesive + 0.5 * z * p.by_depth) *
+           mobilised_share(passed * aside, ground.soil->janosi_k);
+  }
+  return slice * sum;
 }
 
 }  // namespace navvy::terramechanics

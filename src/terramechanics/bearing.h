@@ -70,4 +70,13 @@ double passive_resistance(const SoilState& ground, double width, double depth);
 double bulldozing(const SoilState& ground, double width, double radius, double depth,
                   double advance);
 
+/// Returns the resistance [N] of the soil beside a disc of `radius` r [m] that has sunk by `depth`
+/// [m] and moves sideways by `aside` [-] per distance that it travels: the tangent of its slip
+/// angle, infinite for a disc that moves only sideways. The sign of `aside` does not matter.
+///
+/// The sunken segment of the side wall meets the passive_resistance() of the soil, depth by depth.
+/// Soil that the wall has passed by the distance x is pushed aside by x `aside` and mobilised by
+/// that much [Janosi 1961].
+double side_wall_resistance(const SoilState& ground, double radius, double depth, double aside);
+
 }  // namespace navvy::terramechanics

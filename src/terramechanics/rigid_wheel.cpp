@@ -62,23 +62,6 @@ Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
   return out;
 }
 
-/// Returns the resistance of the soil beside the sunken segment of the wheel [N].
-double side_wall_force(const WheelCase& wheel, const scene::Soil& soil, double sinkage) {
-  const double aside = std::tan(wheel.slip_angle);
-  if (aside == 0) return 0;
-  const double r = wheel.radius, half = std::sqrt(std::max(0.0, (2 * r - sinkage) * sinkage));
-  const double slice = 2 * half / kSlices;
-  double sum = 0;
-  for (int i = 0; i < kSlices; ++i) {
-    // From the front, where the soil meets the wall.
-    const double passed = (i + 0.5) * slice, x = half - passed;
-    const double depth = std::sqrt(r * r - x * x) - (r - sinkage);
-    sum += passive_resistance({&soil, 1}, slice, depth) *
-           mobilised_share(passed * aside, soil.janosi_k);
-  }
-  return std::copysign(sum, aside);
-}
-
 }  // namespace
 
 double rim_speed(double speed, double slip) {
@@ -101,7 +84,9 @@ WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil) {
                               1 / rim_speed(1.0, wheel.slip));
   out.drawbar = arc.drawbar - out.bulldozing;
   out.torque = arc.torque;
-  out.side_wall = side_wall_force(wheel, soil, out.sinkage);
+  const double aside = std::tan(wheel.slip_angle);
+  out.side_wall =
+      std::copysign(side_wall_resistance({&soil, 1}, wheel.radius, out.sinkage, aside), aside);
   out.side = arc.side + out.side_wall;
   return out;
 }

@@ -139,6 +139,33 @@ double soil_resistance(const scene::Wheel& tyre, const Roll& roll, const GroundQ
   return resistance * std::tanh(roll.speed / band);
 }
 
+/// Motion of a wheel over the ground at its contact.
+struct Drift {
+  Vec3 left = Vec3::UnitY();    // unit, in the plane of the ground
+  double aside = 0, ahead = 0;  // velocity to the left and ahead [m/s]
+};
+
+/// Returns the resistance of the soil beside the leading side wall of a wheel that moves sideways
+/// [N], to the left: negative for a wheel that moves to the left. The tyres stand in a rut of
+/// `depth` [m] under `load` [N]. At most the load; smooth through zero, within the stability of an
+/// explicit step.
+double side_wall_force(const scene::Wheel& tyre, const Vec3& center, const Drift& drift,
+                       const GroundQuery& ground, double depth, double load, double dt) {
+  if (drift.aside == 0 || !(depth > 0)) return 0;
+  // Over the middle of the first columns beyond those that are pressed with the tread.
+  const double beyond = 0.5 * (tyre.twin_spacing + tyre.width) + 1.5 * ground.lattice().spacing;
+  const Vec3 p = center + std::copysign(beyond, drift.aside) * drift.left;
+  // One side of a wheel on a rut's edge may be free. The mean depth alone does not see that, and
+  // the height of one side alone would take a slope for soil beside the wheel.
+  const double wall =
+      std::min(depth, ground.height(p.x(), p.y()) - ground.height(center.x(), center.y()));
+  const double resistance =
+      std::min(load, side_wall_resistance(ground.soil(p.x(), p.y()), tyre.radius, wall,
+                                          drift.aside / std::abs(drift.ahead)));
+  const double band = std::max(0.05, resistance * dt / (0.15 * load / kGravity));
+  return -resistance * std::tanh(drift.aside / band);
+}
+
 /// Returns the depth of the ground under the tyres below the ground beside them [m]: the rut,
 /// whatever pressed it.
 double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& ground) {
@@ -168,6 +195,9 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
   const double offset = track_offset(tyre);
   const double rim_mass = motion.spin_inertia / (tyre.radius * tyre.radius);
   double rim_speed = 0, ground_speed = 0, load = 0;
+  Drift drift;
+  drift.left.setZero();
+  Vec3 bottom = Vec3::Zero();  // mean contact from the centre, weighted by load
   for (int t = 0; t < 2; ++t) {
     const Vec3 arm = (t == 0 ? offset : -offset) * axis;
     const Track track = find_contact(center + arm, axis, tyre.radius, ground);
@@ -211,6 +241,9 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     rim_speed += normal_force * rolling;
     ground_speed += normal_force * v_carrier.dot(ahead);
     load += normal_force;
+    drift.left += normal_force * left;
+    drift.aside += normal_force * v_carrier.dot(left);
+    bottom += normal_force * p;
   }
   // Slip of the whole wheel, weighted by the load of each strip.
   if (load > 0) {
@@ -219,6 +252,13 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     out.slip =
         (rim_speed - ground_speed) / std::max({std::abs(rim_speed), std::abs(ground_speed), 0.1});
     out.sinkage = sinkage(tyre, motion.X_WWheel, ground);
+    drift.left.normalize();
+    drift.aside /= load;
+    drift.ahead = ground_speed;
+    const Vec3 side =
+        side_wall_force(tyre, center, drift, ground, out.sinkage, load, dt) * drift.left;
+    out.force_W += side;
+    out.moment_W += (bottom / load).cross(side);
   }
   return out;
 }

@@ -216,5 +216,56 @@ TEST(TyreOnSoil, IsNotPushedBackAtRestOrBeyondItsThrust) {
   EXPECT_LE(held_back(rut, rigid, 1, 0), load);
 }
 
+/// Returns level ground, higher by these steps [m] beyond the wheel's left and right.
+FunctionGround rut(const scene::Soil& soil, double left, double right) {
+  FunctionGround ground([=](double, double y) { return y > 0.4 ? left : y < -0.4 ? right : 0.0; });
+  ground.set_soil([&soil](double, double) { return SoilState{&soil, 1}; });
+  return ground;
+}
+
+/// Returns the sideways force of the side walls in a rut: what `steady` has more than on level
+/// ground.
+double side_wall(const scene::Soil& soil, double left, double right, const Vec2& carrier) {
+  return steady(rut(soil, left, right), carrier, carrier.x()).force_W.y() -
+         steady(level(soil), carrier, carrier.x()).force_W.y();
+}
+
+TEST(TyreSideWall, MeetsThePassiveResistanceOfTheRutsWall) {
+  scene::Soil soil;
+  soil.cohesion = soil.residual_cohesion = 4e3;
+  const double law = side_wall_resistance({&soil, 1}, twin().radius, 0.08, 0.3);
+  EXPECT_GT(law, 500);
+  // Against the motion, on the side of the wall that leads.
+  EXPECT_NEAR(side_wall(soil, 0.08, 0.08, Vec2(1, 0.3)), -law, 0.01 * law);
+  EXPECT_NEAR(side_wall(soil, 0.08, 0.08, Vec2(1, -0.3)), law, 0.01 * law);
+  EXPECT_NEAR(side_wall(soil, 0.08, 0.08, Vec2(-1, 0.3)), -law, 0.01 * law);
+  EXPECT_EQ(side_wall(soil, 0.08, 0.08, Vec2(1, 0)), 0);
+  // A wheel that only moves sideways mobilises all of it, on the way from rest.
+  const double whole = side_wall_resistance({&soil, 1}, twin().radius, 0.08, 1e9);
+  EXPECT_GT(whole, 1.05 * law);
+  EXPECT_NEAR(side_wall(soil, 0.08, 0.08, Vec2(0, 0.5)), -whole, 0.01 * whole);
+  EXPECT_LT(std::abs(side_wall(soil, 0.08, 0.08, Vec2(0, 0.005))), 0.15 * whole);
+}
+
+TEST(TyreSideWall, MeetsNothingOnAFreeSideAnAslantGroundOrAFirmFloor) {
+  scene::Soil soil;
+  soil.cohesion = soil.residual_cohesion = 4e3;
+  EXPECT_LT(side_wall(soil, 0.08, 0, Vec2(1, 0.3)), -100);
+  EXPECT_EQ(side_wall(soil, 0.08, 0, Vec2(1, -0.3)), 0);
+  FunctionGround across([](double, double y) { return 0.1 * y; });
+  across.set_soil([&soil](double, double) { return SoilState{&soil, 1}; });
+  // On a slope across, no side is a wall: the depth of the rut is zero.
+  EXPECT_NEAR(steady(across, Vec2(1, 0.3), 1).sinkage, 0, 1e-12);
+  const FunctionGround floor([](double, double y) { return std::abs(y) > 0.4 ? 0.08 : 0.0; });
+  EXPECT_EQ(steady(floor, Vec2(1, 0.3), 1).force_W, steady(flat(), Vec2(1, 0.3), 1).force_W);
+}
+
+TEST(TyreSideWall, NeverExceedsTheLoad) {
+  scene::Soil soil;
+  soil.cohesion = soil.residual_cohesion = 200e3;
+  const double load = steady(level(soil), Vec2(1, 0.3), 1).force_W.z();
+  EXPECT_NEAR(side_wall(soil, 0.2, 0.2, Vec2(1, 0.3)), -load, 1e-6 * load);
+}
+
 }  // namespace
 }  // namespace navvy::terramechanics
