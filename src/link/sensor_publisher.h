@@ -17,8 +17,8 @@ namespace navvy::link {
 /// A reader gets lines of JSON (docs/reference/control_protocol.md, section "Readings over TCP").
 /// The first one describes all arrays. Then follow the values that are delivered from then on, each
 /// as a line with its stamps and `bytes`, and that many bytes behind the line. A reader that falls
-/// more than kMostBytes behind misses the oldest values and is told how many. The last line is
-/// {"end": true}; a stream that ends without it was cut off.
+/// more than kMostBytes behind misses the oldest values; a line gives their number. The last line
+/// is {"end": true}; a stream that ends without it was cut off.
 class SensorPublisher {
  public:
   /// Starts to listen at `address` (TcpServer). The world must outlive this object.
@@ -33,8 +33,8 @@ class SensorPublisher {
 
   /// Hands on all values that arrays got since the last call. Must be called after each step.
   void publish();
-  /// Tells readers that the state was replaced, by the line {"restarted": TIME}. Must be called
-  /// after a reset or load.
+  /// Reports to readers that the state was replaced, by the line {"restarted": TIME}. Must be
+  /// called after a reset or load.
   void restart();
   /// Sends what is left and ends the threads. Each reader gets at most TcpServer::kPatience seconds
   /// for this. Later calls do nothing.

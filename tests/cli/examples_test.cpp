@@ -31,7 +31,7 @@ class Examples : public ProgramRun {
   std::string printed() const { return text_of(directory_ / "example"); }
 };
 
-// The crate stands in the way twice, at places that the program is not told.
+// The crate stands in the way twice, at places that the program does not know.
 TEST_F(Examples, ARobotDrivesAroundAMovedBoxByItsScanAlone) {
   for (const std::string crate : {"-0.5 -2", "0.6 -2.2"}) {
     ASSERT_EQ(example("avoid_box.py", {"--navvy", NAVVY_PROGRAM, "--crate", crate, "--out", out()}),

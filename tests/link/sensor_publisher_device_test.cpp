@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "link/tcp_client.h"
 #include "run/scene.h"
+#include "run/simulation.h"
 #include "sim/sampler.h"
 
 namespace navvy::link {
@@ -25,7 +26,7 @@ using testing::receive;
 /// Returns the next line of the stream as JSON; discarded JSON if there is none.
 json next_line(int file) {
   std::string line;
-  for (std::string one; (one = receive(file, 1)) == std::string(1, one[0]) && one != "\n";)
+  for (std::string one = receive(file, 1); !one.empty() && one != "\n"; one = receive(file, 1))
     line += one;
   return json::parse(line, nullptr, false);
 }
