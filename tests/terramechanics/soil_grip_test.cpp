@@ -264,7 +264,9 @@ TEST(TyreSideWall, NeverExceedsTheLoad) {
   scene::Soil soil;
   soil.cohesion = soil.residual_cohesion = 200e3;
   const double load = steady(level(soil), Vec2(1, 0.3), 1).force_W.z();
-  EXPECT_NEAR(side_wall(soil, 0.2, 0.2, Vec2(1, 0.3)), -load, 1e-6 * load);
+  const double force = -side_wall(soil, 0.2, 0.2, Vec2(1, 0.3));
+  EXPECT_LE(force, load);
+  EXPECT_GT(force, 0.98 * load);
 }
 
 }  // namespace
