@@ -291,6 +291,12 @@ class Fields {
   void derived_text(const char* name, Computed text) {
     field({name, std::move(text), {}, "", {Mark::kDerived}});
   }
+  /// Visits items without elements of their own, whose fields are parameters of the scene.
+  template <class T>
+  void derived_list(const char* name, std::vector<T>& items) {
+    list(name, items, std::numeric_limits<std::size_t>::max(),
+         std::vector<Start<T>>{{name, "", T()}}, {Mark::kDerived});
+  }
   /// Visits an enumeration that follows from other elements; its parameter is the integer value.
   template <class T>
   void derived_kind(const char* name, T kind) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,9 +15,11 @@
 #include "core/limits.h"
 #include "core/math.h"
 #include "geometry/triangle_mesh.h"
+#include "scene/bucket.h"
 #include "scene/drive.h"
 #include "scene/fields.h"
 #include "scene/material.h"
+#include "scene/mechanism.h"
 #include "scene/sensor.h"
 #include "scene/tool_shell.h"
 
@@ -37,7 +40,10 @@ struct Geometry {
   double radius = 0.5;       ///< radius of a cylinder, capsule or sphere, or of a cone's base [m]
   /// Length of a cylinder or cone (tip at +z), or of a capsule without its hemispherical ends [m].
   double length = 1.0;
-  std::string mesh_file;      ///< absolute path of the OBJ file of a mesh
+  /// Absolute path of the file of a mesh; with `made`, a name that is unique for the mesh.
+  std::string mesh_file;
+  /// Mesh that was computed and is in no file; empty otherwise.
+  std::shared_ptr<const geometry::TriangleMesh> made;
   Vec3 scale = Vec3::Ones();  ///< scale factors of a mesh along its x, y and z axes [-]
 
   /// Passes the parameters of the shape to the visitor `f`; a file gives them in SDF's <geometry>.
@@ -111,6 +117,8 @@ struct Link {
   LinkMaterial material;
   double density = 0;           ///< density for deriving mass and inertia [kg/m3]; 0: not given
   std::vector<Sensor> sensors;  ///< sensors on the link
+  /// Point on which outside components pull; empty: the link has no such input.
+  std::optional<ForceInput> force_input;
 
   /// Passes the fields of a <link> to the visitor `f`.
   void describe(Fields& f) {
@@ -119,6 +127,9 @@ struct Link {
       "Material of the collision shapes and shells, one word. The world's navvy:materials must "
       "hold a pair for all that may touch.");
     describe_density(f, density);
+    f("navvy:force_input", force_input,
+      "Lets components outside the simulation pull on the link, by the inputs "
+      "MACHINE/LINK/external_force_x, _y and _z.");
     f.derived("pose", X_ML);
     f.derived("mass", mass);
     f.derived("centre_of_mass", p_LCom);
@@ -150,6 +161,11 @@ struct Joint {
   double friction = 0;    ///< dry friction torque [N m] or force [N]
   double initial = 0;     ///< position at the start [rad] or [m]
   double brake = 0;       ///< maximum holding torque [N m] or force [N] of the brake; 0: no brake
+  double stiffness = 0;   ///< stiffness of the joint's spring [N m/rad] or [N/m]; 0: no spring
+  double rest = 0;        ///< position at which the spring is relaxed [rad] or [m]
+  /// True: the joint moves freely until it gets a command. False: it holds its position at the
+  /// start. `has_passive` is true if the file says so.
+  bool passive = false, has_passive = false;
   /// Limits of a ball joint [rad]; pi: unlimited. `cone` is the maximum angle between the child's x
   /// axis and its direction at the start, `twist` the maximum rotation of the child about this axis
   /// in either direction.
@@ -170,6 +186,12 @@ struct Joint {
               g("torque_nm", brake, {1e-3, 1e9}, "Greatest holding torque, of a revolute joint.");
               g("force_n", brake, {1e-3, 1e9}, "Greatest holding force, of a prismatic joint.");
             });
+    f("navvy:passive", passive,
+      "The joint moves freely until it gets a command. By default false, and true for joints with "
+      "a spring or a gear to follow, and joints of loops without a limit of effort.",
+      given(has_passive));
+    if (stiffness > 0) f.derived("stiffness", stiffness);
+    if (stiffness > 0) f.derived("rest", rest);
     f.derived_kind("type", type);
     f.derived("parent", parent);
     f.derived("child", child);
@@ -400,36 +422,6 @@ struct Levers {
   }
 };
 
-/// Marks a link as a digging bucket. Automatic operators aim the cutting edge according to the
-/// members; the soil interacts only with the shell.
-struct Bucket {
-  std::string link;           ///< name of the bucket's link
-  std::string shell;          ///< name of the bucket's shell
-  double capacity = 0.8;      ///< heaped capacity [m3]
-  double width = 1.05;        ///< width of the cut [m]
-  Vec3 p_tip = Vec3::Zero();  ///< middle of the cutting edge in the link's frame [m]
-  /// Unit vector in the link's frame along the bucket's floor, pointing outwards.
-  Vec3 cut_direction = Vec3::UnitX();
-  /// Unit vector in the link's frame that points out of the bucket's mouth.
-  Vec3 opening = Vec3::UnitZ();
-  std::optional<Teeth> teeth;  ///< teeth on the cutting edge
-  std::string name;            ///< name of the bucket, for readers of the file
-
-  /// Passes the fields of a <navvy:bucket> to the visitor `f`.
-  void describe(Fields& f) {
-    f.attribute("name", name, "Name of the bucket, for the reader of the file.", kShown);
-    f("link", link, Refers::kLink, "Link of the bucket.", kNeeded);
-    f("shell", shell, Refers::kShell, "Shell of the bucket.", kNeeded);
-    f("capacity_m3", capacity, {1e-4, 100}, "Heaped capacity.");
-    f("width_m", width, {0.01, 20}, "Width of the cut.");
-    f("tip_m", p_tip, "Middle of the cutting edge in the frame of the link.", kNeeded);
-    f("cut_direction", Direction{&cut_direction},
-      "Direction of the edge, along the floor and outward.");
-    f("opening", Direction{&opening}, "Direction out of the mouth.");
-    f("teeth", teeth, "Teeth on the cutting edge.");
-  }
-};
-
 /// Marks a link as a container that tips its load: a dumper's bed or a skip. A machine has at most
 /// one.
 struct Bed {
@@ -495,6 +487,8 @@ struct Machine {
   /// child of joint i is link i + 1.
   std::vector<Link> links;
   std::vector<Joint> joints;        ///< joints, one per link except the base
+  std::vector<JointGear> gears;     ///< fixed ratios between two joints
+  std::vector<LoopJoint> loops;     ///< joints that close loops of links
   std::vector<Cylinder> cylinders;  ///< hydraulic cylinders
   /// False: every cylinder has a flow of its own, independent of the others.
   bool has_pump = false;
@@ -529,6 +523,8 @@ struct Machine {
     f.derived("fixed_base", fixed_base);
     f("link", links, limits::kLinks, "Rigid body.", kSdf);
     f("joint", joints, limits::kLinks, "Joint between two links.", kSdf);
+    f.derived_list("gear", gears);
+    f.derived_list("loop", loops);
     f("navvy:joint", initial_positions, limits::kLinks, "Position of a joint at the start.",
       kShown);
     f("navvy:arm", arm, "Joints of an excavator's arm by their roles.");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/limits.h"
+#include "scene/design.h"
 #include "scene/fields.h"
 
 namespace navvy::scene {
@@ -34,6 +35,9 @@ class Step {
   virtual std::optional<Waiting> waits_for() const { return std::nullopt; }
   /// Returns the name of the machine's hitch that the step opens; nothing if it opens none.
   virtual std::optional<std::string> opens() const { return std::nullopt; }
+  /// Returns the pit or pad that the step makes; nothing if it makes none. The score of a run
+  /// compares the ground with it if the scene has no design surface.
+  virtual std::optional<DesignArea> area() const { return std::nullopt; }
 
  protected:
   Step() = default;

@@ -10,6 +10,7 @@
 #include "scene/design.h"
 #include "scene/fields.h"
 #include "scene/forbidden.h"
+#include "scene/goals.h"
 #include "scene/ground.h"
 #include "scene/hitch.h"
 #include "scene/machine.h"
@@ -78,6 +79,8 @@ struct MachineInWorld {
   /// in an <include>.
   bool in_scene = false;
   std::vector<InitialPosition> initial_positions;  ///< joint positions that an <include> sets
+  /// Bucket that an <include> fits in place of the machine's own; the reader has done so.
+  std::optional<Bucket> bucket;
   /// Sensors as the scene gives them; the reader has moved them to the links that carry them.
   std::vector<Sensor> sensors;
 
@@ -101,6 +104,7 @@ struct MachineInWorld {
         "kinematic: commands alone move a machine whose file is dynamic.", kShown);
       f("navvy:joint", initial_positions, limits::kLinks, "Position of a joint at the start.",
         kShown);
+      f("navvy:bucket", bucket, "Bucket in place of the machine's own; it has no <shell>.", kShown);
       f.elsewhere([this](Fields& g) {
         g.attribute("name", name, "");
         machine.describe(g);
@@ -224,6 +228,7 @@ struct Scene {
   Recording recording;                   ///< length and output of the run
   std::vector<MapRecord> records;        ///< maps and messages that the run writes
   Forbidden forbidden;                   ///< events that end the run as failed
+  Goals goals;                           ///< bounds on the score of the run
 
   /// Passes all fields of a scene's <world> to the visitor `f`.
   void describe(Fields& f) {
@@ -249,12 +254,16 @@ struct Scene {
     f("navvy:recording", recording, "Length and output of a run.", kShown);
     f("navvy:record", records, limits::kMachines, "Maps that a run writes at a rate.", kShown);
     f("navvy:forbid", forbidden, "Events that end a run as failed.", kShown);
+    f("navvy:goals", goals, "Bounds on the score of a run, which decide its exit status.", kShown);
   }
 
   /// Returns the index in `soils` of the soil with this name; -1 if there is none.
   int soil_index(const std::string& name_of_soil) const;
   /// Returns the index in `machines` of the machine with this name; -1 if there is none.
   int machine_index(const std::string& name_of_machine) const;
+  /// Returns the design that the score of a run compares the ground with: `design`, or if that is
+  /// empty the areas that the programs make.
+  Design commanded_design() const;
 };
 
 }  // namespace navvy::scene
