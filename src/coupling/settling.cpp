@@ -13,6 +13,36 @@
 #include "vehicle/stability.h"
 
 namespace navvy::coupling {
+namespace {
+
+/// Heights of base links above those at the start.
+class Risen {
+ public:
+  Risen(const vehicle::PhysicsEngine& engine, std::size_t machines)
+      : engine_(engine), most_(machines, 0) {
+    for (std::size_t i = 0; i < machines; ++i)
+      start_.push_back(engine.link(static_cast<int>(i), 0).X_WL);
+  }
+  void look() {
+    for (std::size_t i = 0; i < most_.size(); ++i) most_[i] = std::max(most_[i], lift(i));
+  }
+  double most(std::size_t machine) const { return most_[machine]; }
+  double lift(std::size_t machine) const {
+    return engine_.link(static_cast<int>(machine), 0).X_WL.translation().z() -
+           start_[machine].translation().z();
+  }
+  double turn(std::size_t machine) const {
+    const Mat3 R = engine_.link(static_cast<int>(machine), 0).X_WL.linear();
+    return Eigen::AngleAxisd(Mat3(start_[machine].linear().transpose() * R)).angle();
+  }
+
+ private:
+  const vehicle::PhysicsEngine& engine_;
+  std::vector<Pose> start_;
+  std::vector<double> most_;
+};
+
+}  // namespace
 
 // Repeats the run's sequence of engine and ruts without the soil solver.
 std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
@@ -39,8 +69,10 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   // The longest step that a run may take; without soil no shorter one is needed.
   const double dt = scene.solver.max_step;
   const int steps = static_cast<int>(std::ceil(time / dt));
+  Risen risen(*engine, of.size());
   for (int step = 0; step < steps; ++step) {
     engine->step(dt, view);
+    risen.look();
     if (step % kRutInterval != 0) continue;
     std::vector<LoadedTyre> tyres;
     std::vector<terramechanics::TrackPatch> running_tracks;
@@ -64,7 +96,11 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   }
   for (std::size_t i = 0; i < of.size(); ++i)
     out[of[i]] = {vehicle::stability(scene.machines[of[i]].machine, *engine, static_cast<int>(i)),
-                  -engine->link(static_cast<int>(i), 0).v_WL.z()};
+                  -engine->link(static_cast<int>(i), 0).v_WL.z(),
+                  risen.most(i),
+                  risen.lift(i),
+                  risen.turn(i),
+                  !scene.machines[of[i]].machine.fixed_base};
   return out;
 }
 

@@ -17,6 +17,13 @@ struct Settled {
   vehicle::Stability stability;
   /// Downward speed of the base link [m/s]; negative if it moves up.
   double fall_speed = 0;
+  /// Largest height of the base link's origin above that at the start, and the height at the end
+  /// above it [m].
+  double rise = 0, lift = 0;
+  /// Angle by which the base link has turned since the start [rad].
+  double turn = 0;
+  /// True for a machine that forces can move from its place: dynamic and not fixed to the world.
+  bool movable = false;
 };
 
 /// Simulates machines, tyres and ruts for `time` [s], and returns the state of each machine of the

@@ -5,19 +5,12 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/close_loops.h"
 
 namespace navvy::vehicle {
 namespace {
 
 using JointType = scene::Joint::Type;
-
-Pose joint_motion(const scene::Joint& joint, double q) {
-  Pose X = Pose::Identity();
-  if (joint.type == JointType::kRevolute)
-    X.linear() = Eigen::AngleAxisd(q, joint.axis.normalized()).toRotationMatrix();
-  if (joint.type == JointType::kPrismatic) X.translation() = q * joint.axis.normalized();
-  return X;
-}
 
 const scene::Link& link_of(const scene::Machine& machine, int index) {
   return machine.links[static_cast<std::size_t>(index)];
@@ -35,10 +28,7 @@ const scene::Link& link_of(const scene::Machine& machine, int index) {
 }  // namespace
 
 Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double q) {
-  // Child in parent at 0, then the motion in the joint's own frame, which is fixed in the child.
-  const Pose X_MC = link_of(machine, joint.child).X_ML;
-  const Pose X_PC0 = joint.parent < 0 ? X_MC : link_of(machine, joint.parent).X_ML.inverse() * X_MC;
-  return X_PC0 * joint.X_LcJ * joint_motion(joint, q) * joint.X_LcJ.inverse();
+  return scene::child_in_parent(machine, joint, q);
 }
 
 // Each link follows from its parent's pose.

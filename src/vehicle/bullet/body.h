@@ -94,6 +94,12 @@ class TreeBody {
   /// velocity along that impulse.
   void virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                     double* work) const;
+  /// Computes the change `delta` of the generalised velocity by a generalised impulse `work`. Both
+  /// have the size and order of virtual_work().
+  void respond_to(const double* work, double* delta) const {
+    update_factors();
+    body_->calcAccelerationDeltasMultiDof(work, delta, scratch_r_, scratch_v_);
+  }
   /// Returns the inverse of a link's articulated mass at the link's origin, in the order (angular,
   /// linear) and world axes.
   Mat6 inverse_mass(int link) const;

@@ -128,13 +128,15 @@ class BulletEngine final : public PhysicsEngine,
     require_capacity(machine);
     machines_.push_back(std::make_unique<BulletMachine>(machine, X_WM));
     add_shapes(*machines_.back());
-    // The order of rows in the solver affects the result: joints, balls, differentials, then rock,
-    // by machine.
+    // The order of rows in the solver affects the result: joints, balls, differentials, springs,
+    // gears and loops, then rock, by machine.
     for (const auto& servo : machines_.back()->servos())
       if (servo) constraints_.push_back(servo.get());
     for (const auto& ball : machines_.back()->balls()) constraints_.push_back(ball.get());
     for (const auto& differential : machines_.back()->differentials())
       constraints_.push_back(differential.get());
+    for (const auto& spring : machines_.back()->springs()) constraints_.push_back(spring.get());
+    if (MechanismRows* mechanism = machines_.back()->mechanism()) constraints_.push_back(mechanism);
     for (const auto& rock : machines_.back()->rock()) {
       rock->set_height(rock_height_);
       constraints_.push_back(rock.get());

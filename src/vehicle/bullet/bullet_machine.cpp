@@ -20,7 +20,11 @@ BulletMachine::BulletMachine(const scene::Machine& machine, const Pose& X_WM)
       tree_(machine_, X_WM),
       joints_(machine_, tree_),
       wheels_(machine_, tree_),
-      drive_(machine_, tree_, joints_, wheels_) {
+      drive_(machine_, tree_, joints_, wheels_),
+      mechanism_(make_mechanism_rows(machine_, tree_)),
+      springs_(make_springs(machine_, tree_, mechanism_.get())) {
+  for (const auto& servo : joints_.servos())
+    if (servo && mechanism_) servo->couple(*mechanism_);
   add_colliders();
   add_rock();
   add_steel();
@@ -182,6 +186,7 @@ void BulletMachine::accelerate(const Vec3& gravity, double dt) {
     ground_impulse_ = -dt * tree_.total_mass() * gravity;
   else
     tree_.step_velocities(gravity, dt);
+  if (mechanism_) mechanism_->prepare(dt);
 }
 
 // Reads the solver's impulses in the order in which the parts depend on each other.

@@ -13,6 +13,7 @@
 #include "vehicle/bullet/joints.h"
 #include "vehicle/bullet/link_shapes.h"
 #include "vehicle/bullet/machine_drive.h"
+#include "vehicle/bullet/mechanism_rows.h"
 #include "vehicle/bullet/rock.h"
 #include "vehicle/bullet/sleeping.h"
 #include "vehicle/bullet/wheels.h"
@@ -50,6 +51,10 @@ class BulletMachine {
   const std::vector<std::unique_ptr<DifferentialRow>>& differentials() const {
     return drive_.differentials();
   }
+  /// Returns the constraint rows of gears and closed loops; null for a machine without them.
+  MechanismRows* mechanism() { return mechanism_.get(); }
+  /// Returns the constraint rows of the joints' springs.
+  const std::vector<std::unique_ptr<SpringRow>>& springs() const { return springs_; }
   /// Returns the collision objects of the links, indexed by link; null for a link without collision
   /// shapes.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }
@@ -171,6 +176,9 @@ class BulletMachine {
   MachineWheels wheels_;
   /// Drive that turns and steers the wheels.
   MachineDrive drive_;
+  /// Constraint rows of gears and closed loops, or null, and those of springs.
+  std::unique_ptr<MechanismRows> mechanism_;
+  std::vector<std::unique_ptr<SpringRow>> springs_;
   /// Constraint rows between shells and rock, indexed by shell.
   std::vector<std::unique_ptr<RockContact>> rock_;
   /// Collision shapes of the links, indexed by link.

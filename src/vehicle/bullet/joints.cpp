@@ -31,8 +31,9 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
       drive_rate_(std::numeric_limits<double>::infinity()) {
   for (std::size_t j = 0; j < machine.joints.size(); ++j) {
     const scene::Joint& joint = machine.joints[j];
-    // A joint without a command stays where it is.
-    actuators_[j].servo.set({JointMode::kPosition, joint.initial});
+    // A joint without a command stays where it is, or swings freely.
+    actuators_[j].servo.set(
+        {joint.passive ? JointMode::kFree : JointMode::kPosition, joint.initial});
     actuators_[j].has_brake = joint.brake > 0 && moves(joint);
     // Fixed and ball joints have no servo, nor has a joint of the base to the world.
     const int k = tree.bullet_of_joint(static_cast<int>(j));

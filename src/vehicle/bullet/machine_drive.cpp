@@ -71,7 +71,9 @@ void MachineDrive::find_axles() {
       const bool known = std::find(axles_.begin(), axles_.end(), up) != axles_.end();
       const bool steers = std::any_of(wheels_.all().begin(), wheels_.all().end(),
                                       [&](const MachineWheel& w) { return w.steer_joint == up; });
-      if (joint.type == scene::Joint::Type::kRevolute && !known && !steers) axles_.push_back(up);
+      // A suspension is no axle to lock: the drive leaves passive joints alone.
+      if (joint.type == scene::Joint::Type::kRevolute && !joint.passive && !known && !steers)
+        axles_.push_back(up);
       link = joint.parent;
     }
 }

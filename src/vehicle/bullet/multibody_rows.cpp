@@ -48,6 +48,26 @@ void MultibodyRows::add_row(int row, double velocity, double low, double high,
   c.m_solverBodyIdB = -1;  // no rigid body there
 }
 
+// With q the stretch, m the effective mass and h the step, the impulse is -h k (q + c h v'), where
+// v' is the velocity after the step, by which the position moves. c = 0 is the semi-implicit Euler
+// step, stable for w = h sqrt(k/m) < 2; c >= 1/2 is stable for every w. As a row of the solver:
+// v' + impulse / (c h^2 k) = -q / (c h).
+void MultibodyRows::add_spring(int row, double stretch, double stiffness, double carried,
+                               btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                               const btContactSolverInfo& info) {
+  const double h = info.m_timeStep;
+  add_row(row, 0, -1e12, 1e12, rows, data, info);
+  btMultiBodySolverConstraint& c = rows[rows.size() - 1];
+  // Bullet leaves 0 where nothing can move.
+  if (!(c.m_jacDiagABInv > 0)) return;
+  const double inverse_mass = 1 / c.m_jacDiagABInv, velocity = -c.m_rhs * inverse_mass;
+  const double w2 = h * h * stiffness * inverse_mass, part = w2 / (1 + w2);
+  const double softness = 1 / (part * h * h * stiffness);
+  c.m_jacDiagABInv = 1 / (inverse_mass + softness);
+  c.m_cfm = softness * c.m_jacDiagABInv;
+  c.m_rhs = (-stretch / (part * h) - carried - velocity) * c.m_jacDiagABInv;
+}
+
 void MultibodyRows::add_stop(int row, double gap, double rate, btMultiBodyConstraintArray& rows,
                              btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
   const double dt = info.m_timeStep;

@@ -34,6 +34,16 @@ class MultibodyRows : public btMultiBodyConstraint {
   /// of the other.
   void add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
                btMultiBodyJacobianData& data, const btContactSolverInfo& info);
+  /// Adds the row with index `row` as a spring of the stiffness `stiffness` [N m/rad|N/m] that is
+  /// stretched by `stretch` [rad|m]. The row measures the rate of the stretch without a part of it,
+  /// `carried` [rad/s|m/s], that other rows cause. The solver finds the spring's impulse together
+  /// with all others.
+  ///
+  /// A soft spring acts as in the semi-implicit Euler step, without numerical damping. A spring
+  /// whose period is short against the step is damped so much that it stays stable.
+  void add_spring(int row, double stretch, double stiffness, double carried,
+                  btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                  const btContactSolverInfo& info);
   /// Adds a row that prevents the distance `gap` [rad|m] to a stop from becoming negative, with
   /// unlimited impulse.
   ///

@@ -7,6 +7,8 @@
 
 namespace navvy::vehicle {
 
+class MechanismRows;
+
 /// Motor of one revolute or prismatic joint. It brings the joint to a given velocity with a limited
 /// impulse, and keeps the joint between its stops with unlimited impulse. After the solver has run,
 /// the impulse of the motor can be read back.
@@ -25,6 +27,9 @@ class ServoConstraint final : public MultibodyRows {
     low_ = low;
     high_ = high;
   }
+  /// Makes the motor move the joint together with what `mechanism` couples it to. The mechanism
+  /// must exist as long as this object.
+  void couple(const MechanismRows& mechanism) { mechanism_ = &mechanism; }
   /// Returns the impulse of the motor in the last step [N m s|N s].
   double motor_impulse() { return getAppliedImpulse(0); }
 
@@ -35,6 +40,12 @@ class ServoConstraint final : public MultibodyRows {
                             const btContactSolverInfo& info) override;
 
  private:
+  /// Adds the row of the motor of a joint that a mechanism couples to others.
+  void add_coupled(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                   const btContactSolverInfo& info);
+
+  /// Rows of the machine's gears and loops, or null.
+  const MechanismRows* mechanism_ = nullptr;
   /// True if the joint has stops.
   bool has_limits_;
   /// Positions of the stops [rad|m].

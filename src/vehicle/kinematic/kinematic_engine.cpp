@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/limits.h"
+#include "scene/close_loops.h"
 #include "vehicle/drive/drive_line.h"
 #include "vehicle/kinematics.h"
 #include "vehicle/physics_engine.h"
@@ -61,8 +62,10 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
     body.braked.assign(machine.joints.size(), 0);
     for (std::size_t j = 0; j < machine.joints.size(); ++j) {
       body.q[j] = machine.joints[j].initial;
-      // Until a command comes, every joint holds its position at the start.
-      body.input.push_back({JointMode::kPosition, body.q[j]});
+      // Until a command comes, every joint holds its position at the start; passive ones move with
+      // their loop alone.
+      body.input.push_back(
+          {machine.joints[j].passive ? JointMode::kFree : JointMode::kPosition, body.q[j]});
     }
     bodies_.push_back(std::move(body));
     update_links(bodies_.back());
@@ -123,6 +126,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
     for (Body& body : bodies_) {
       // Joints first: a drive may then command its wheels' joints for the next step.
       move_joints(body, dt);
+      move_mechanisms(body, dt);
       if (body.placed)
         move_to_goal(body, dt);
       else if (body.machine.has_drive)
@@ -244,6 +248,22 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
       const double next = std::clamp(wanted, body.q[j] - most, body.q[j] + most);
       body.qd[j] = (next - body.q[j]) / dt;
       body.q[j] = next;
+    }
+  }
+
+  /// Moves the joints that follow others, and the free joints of loops. Springs have no effect.
+  static void move_mechanisms(Body& body, double dt) {
+    if (body.machine.gears.empty() && body.machine.loops.empty()) return;
+    // From the last step's positions, the loops are nearly closed.
+    constexpr int kMost = 10;
+    std::vector<char> held(body.q.size());
+    for (std::size_t j = 0; j < held.size(); ++j)
+      held[j] = body.input[j].mode != JointMode::kFree || body.braked[j] != 0 ? 1 : 0;
+    std::vector<double> q = body.q;
+    scene::close_loops(body.machine, held, q, kMost);
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      body.qd[j] += (q[j] - body.q[j]) / dt;
+      body.q[j] = q[j];
     }
   }
 
