@@ -34,6 +34,14 @@ void MachineCommands::require_valid(const JointHandle& joint,
     throw InputError(Fault{Fault::Severity::kError, "", 0, "command", std::to_string(joint.index()),
                            "the handle belongs to no joint of this machine",
                            "take handles from the same world"});
+  for (const scene::JointGear& gear :
+       parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine.gears)
+    if (gear.follower == joint.index() && input.mode != vehicle::JointMode::kFree)
+      throw InputError(Fault{Fault::Severity::kError, "", 0, "command", joint.name(),
+                             "this joint follows joint '" +
+                                 joints[static_cast<std::size_t>(gear.leader)].name +
+                                 "' by a fixed ratio",
+                             "command that joint"});
   require_finite("command of joint '" + joints[static_cast<std::size_t>(joint.index())].name + "'",
                  input.target);
 }
@@ -79,7 +87,7 @@ void MachineCommands::require_valid(const MachineHandle& machine,
 
 // Joints without a brake would ignore the command, so report it.
 void MachineCommands::require_brake(const JointHandle& joint) const {
-  require_valid(joint, vehicle::JointInput{});
+  require_valid(joint, vehicle::JointInput{vehicle::JointMode::kFree, 0});
   const scene::Machine& machine =
       parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine;
   if (!(machine.joints[static_cast<std::size_t>(joint.index())].brake > 0))
@@ -110,6 +118,16 @@ void MachineCommands::set_brake(const JointHandle& joint, bool on) {
   require_brake(joint);
   const int m = joint.machine();
   parts_->coupling.engine(m).set_brake(parts_->coupling.index(m), joint.index(), on);
+}
+void MachineCommands::set_force(const MachineHandle& machine, int link, const Vec3& f_W) {
+  require_machine(machine.index(), parts_->description);
+  for (int i = 0; i < 3; ++i) require_finite("force on a link", f_W[i]);
+  const int force = parts_->forces.find(machine.index(), link);
+  if (force < 0)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "force", std::to_string(link),
+                           "this link has no force input",
+                           "give it <navvy:force_input/> in the machine's file"});
+  parts_->forces.set(force, f_W);
 }
 void MachineCommands::set_hitch(int hitch, bool closed) {
   require_hitch(parts_->description, hitch);

@@ -34,12 +34,17 @@ class MachineCommands {
   /// not follow commands.
   /// @throws InputError for a joint without a brake.
   void set_brake(const JointHandle& joint, bool on);
+  /// Sets the force on a link of `machine`, in axes of W [N]. It acts in every step until it is set
+  /// again. `link` is an index into scene::Machine::links.
+  /// @throws InputError for a link without a force input.
+  void set_force(const MachineHandle& machine, int link, const Vec3& f_W);
   /// Closes (`closed` is true) or opens a hitch. `hitch` is an index into scene::Scene::hitches.
   /// @throws InputError for a hitch that does not exist, or if the eye is too far from the hook to
   /// close.
   void set_hitch(int hitch, bool closed);
 
-  /// Checks a joint command without changing anything.
+  /// Checks a joint command without changing anything. A joint that follows another one by a gear
+  /// takes no commands.
   /// @throws InputError if `set` would throw for these arguments.
   void require_valid(const JointHandle& joint, const vehicle::JointInput& input) const;
   /// Checks a drive command without changing anything.

@@ -24,6 +24,7 @@ constexpr double kTouching = 0.02;
 constexpr double kSettling = 1;  // [s]
 constexpr double kFalling = 1;   // [m/s] downwards: it has not landed
 constexpr double kTipped = radians(45);
+constexpr double kThrown = 0.02;  // [m] more than a machine moves that finds its stand
 
 struct LinkBox {
   geometry::OrientedBox box;
@@ -244,7 +245,7 @@ std::string reported_design(const scene::Scene& scene, const heightfield::Ground
     least = std::fmin(least, static_cast<double>(z));
     most = std::fmax(most, static_cast<double>(z));
   }
-  const std::size_t areas = scene.design.areas.size();
+  const std::size_t areas = scene.commanded_design().areas.size();
   const std::string what =
       scene.design.file.empty() ? std::to_string(areas) + (areas == 1 ? " area" : " areas")
       : scene.design.tin        ? scene.design.file + ", surface '" + scene.design.tin->name + "'"
@@ -257,6 +258,41 @@ std::string reported_design(const scene::Scene& scene, const heightfield::Ground
   return "design " + what + out.data();
 } catch (const InputError&) {
   return "";
+}
+
+}  // namespace
+
+namespace {
+
+/// Returns true for a machine that stands on its links. Stones and other single bodies are no
+/// machines: they may start in the ground to their middle, as wheels may.
+bool has_feet(const scene::Machine& machine) {
+  return machine.links.size() > 1 && machine.wheels.empty();
+}
+
+/// Returns how a machine without wheels stands; empty for other machines.
+std::string stands_without_wheels(const scene::Machine& machine, const coupling::Settled& one) {
+  if (!one.movable || !has_feet(machine)) return "";
+  if (one.fall_speed > kFalling) return "does not stand after a second: it is still falling";
+  std::array<char, 160> out{};
+  std::snprintf(out.data(), out.size(),
+                "stands without wheels: after a second its base is %.3f m %s and has turned by "
+                "%.1f deg; highest %.3f m up",
+                std::abs(one.lift), one.lift < 0 ? "lower" : "higher", degrees(one.turn), one.rise);
+  return out.data();
+}
+
+/// Returns a warning for a machine without wheels that leaves the ground upwards, as overlapping
+/// shapes, a start beyond limits or placeholders of masses make it.
+std::optional<Fault> thrown(const scene::Scene& scene, const scene::MachineInWorld& placed,
+                            const coupling::Settled& one) {
+  if (!one.movable || !has_feet(placed.machine) || !(one.rise > kThrown)) return {};
+  return warning(
+      error(scene, placed, text("%.2f m", one.rise),
+            "its base is thrown up by that much within its first second",
+            "look for shapes that overlap the ground or each other at the start, joints "
+            "that start beyond their limits, springs that are stretched, and masses that "
+            "are placeholders"));
 }
 
 }  // namespace
@@ -276,8 +312,11 @@ StartCheck check_start(const scene::Scene& scene) {
     // Report a machine inside the ground once: settling would only let it fall.
     if (falls) return out;
     for (const coupling::Settled& one : coupling::settle(scene, ground, kSettling)) {
+      const scene::MachineInWorld& placed = scene.machines[out.standing.size()];
       out.standing.push_back(one.stability);
       out.falling.push_back(one.fall_speed > kFalling);
+      out.without_wheels.push_back(stands_without_wheels(placed.machine, one));
+      if (std::optional<Fault> up = thrown(scene, placed, one)) out.faults.push_back(*up);
     }
     // settle() returns one entry per machine of the scene, empty ones for kinematic machines.
     for (std::size_t m = 0; m < out.standing.size(); ++m) {

@@ -41,8 +41,11 @@ struct StartCheck {
   /// One entry per machine of the scene: true if the machine is still falling after the first
   /// second. Empty if a machine starts inside the ground.
   std::vector<bool> falling;
+  /// One entry per machine of the scene: how it stands, for a dynamic machine of several links
+  /// without wheels that is not fixed to the world; empty for all others.
+  std::vector<std::string> without_wheels;
   /// Errors found: machines that overlap, start inside the ground or tip over, and a ground that
-  /// cannot be built.
+  /// cannot be built; and warnings for machines that are thrown up.
   std::vector<Fault> faults;
   /// Report on the map of the ground, in one or more lines; empty if the scene has no map.
   std::string terrain;

@@ -31,6 +31,7 @@ double World::time() const { return parts_->time(); }
 
 /// Samples last, so that all samplers see the same instant.
 void World::step() {
+  parts_->forces.push(parts_->coupling);
   parts_->coupling.step(parts_->dt);
   parts_->advance_encoders();
   ++parts_->steps;

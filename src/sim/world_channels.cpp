@@ -27,6 +27,7 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
     add_encoder_channels(of);
     add_steering_channels(of);
     add_shaft_channels(of);
+    add_force_channels(of);
   }
   // Tools come after all machines, as users' scripts expect.
   for (const ToolHandle& tool : world.machines().tools()) add_tool_channels(tool, lists);

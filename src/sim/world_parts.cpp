@@ -52,7 +52,8 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device,
       dynamic(make_dynamic(description, make_engine)),
       kinematic(vehicle::make_kinematic_engine()),
       soil(device, description, ground),
-      coupling(description, *dynamic, *kinematic, soil, ground) {
+      coupling(description, *dynamic, *kinematic, soil, ground),
+      forces(description) {
   start = start_of(description, ground);
   start_hash = hash_of_start(start);
   // The base step is limited by waves in the stiffest soil and by the fastest tool.
@@ -137,6 +138,7 @@ void WorldParts::visit(Archive& a) {
       for (std::size_t m = 0; m < encoders.size(); ++m)
         a.item(m, [&] { a("machine", encoders[m]); });
     });
+  if (forces.size() > 0) a.section("link_forces", 1, [&] { a("forces", forces); });
   // Always present, so that a world without samplers notices the samplers of a snapshot.
   a.section("samplers", 3, [&] {
     a.constant("count", samplers.size(),

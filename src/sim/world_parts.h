@@ -15,6 +15,7 @@
 #include "scene/scene.h"
 #include "sim/array_outputs.h"
 #include "sim/channels.h"
+#include "sim/link_forces.h"
 #include "sim/sampler.h"
 #include "soil/solver.h"
 #include "vehicle/encoder.h"
@@ -77,6 +78,8 @@ struct WorldParts {
   coupling::Coupling coupling;
   /// Encoders of each machine, in the scene's order. Most machines have none.
   std::vector<vehicle::Encoders> encoders;
+  /// Forces on links with a force input.
+  LinkForces forces;
   /// Named inputs, which clients set.
   Inputs inputs;
   /// Named scalar outputs, which clients read.

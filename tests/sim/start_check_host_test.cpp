@@ -147,5 +147,44 @@ TEST(StartCheck, AcceptsShippedScenes) {
   EXPECT_GE(scenes, 7);
 }
 
+/// Returns a body of 40 kg on four legs of 0.4 m, on hinges that hold, at this height of its feet.
+std::string walker(const std::string& height) {
+  std::string out = "<model name=\"walker\"><pose>0 0 " + height +
+                    " 0 0 0</pose><navvy:on_ground>false</navvy:on_ground><link name=\"body\">"
+                    "<pose>0 0 0.45 0 0 0</pose><navvy:density_kg_per_m3>500"
+                    "</navvy:density_kg_per_m3><collision name=\"c\"><geometry><box><size>0.8 0.5 "
+                    "0.2</size></box></geometry></collision></link>";
+  for (const char* place : {"0.35 0.2", "0.35 -0.2", "-0.35 0.2", "-0.35 -0.2"}) {
+    const std::string name = "leg" + std::to_string(out.size());
+    out += "<link name=\"" + name + "\"><pose>" + place +
+           " 0.2 0 0 0</pose><navvy:density_kg_per_m3>500</navvy:density_kg_per_m3><collision "
+           "name=\"c\"><geometry><box><size>0.08 0.08 0.4</size></box></geometry></collision>"
+           "</link><joint name=\"j" +
+           name + "\" type=\"revolute\"><pose>0 0 0.2 0 0 0</pose><parent>body</parent><child>" +
+           name + "</child><axis><xyz>0 1 0</xyz></axis></joint>";
+  }
+  return out + "</model>";
+}
+
+TEST(StartCheck, ReportsHowAMachineWithoutWheelsStands) {
+  const StartCheck start = check_start(scene_io::load_scene_from_string(
+      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>"
+      "<navvy:ground><size_m>24 20</size_m></navvy:ground>" +
+          walker("0") + "</world></sdf>",
+      "w.sdf", control::step_kinds()));
+  ASSERT_EQ(start.without_wheels.size(), 1u);
+  EXPECT_TRUE(start.faults.empty());
+  EXPECT_NE(start.without_wheels[0].find("stands without wheels: after a second its base is 0.00"),
+            std::string::npos)
+      << start.without_wheels[0];
+}
+
+TEST(StartCheck, WarnsOfAMachineThatIsThrownUp) {
+  // Its feet reach 0.15 m into the ground, which pushes them out.
+  expect_one(faults_of(walker("-0.15")),
+             {"w.sdf:", "include[walker]", "thrown up by that much", "overlap the ground"},
+             Fault::Severity::kWarning);
+}
+
 }  // namespace
 }  // namespace navvy::sim

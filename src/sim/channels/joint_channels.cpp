@@ -61,10 +61,16 @@ void add_motion(const MachineChannels& out, const Joint& joint, const JointHandl
        {-joint.velocity, joint.velocity}},
       {"effort", linear ? "N" : "N m", JointMode::kEffort, {-joint.effort, joint.effort}}};
   const std::string base = out.prefix + joint.name + "/";
+  const std::vector<scene::JointGear>& gears = out.machine.description().gears;
+  const bool led = std::any_of(gears.begin(), gears.end(), [&](const scene::JointGear& gear) {
+    return gear.follower == handle.index();
+  });
+  // Its leader alone moves a follower.
   for (const JointChannel& each : channels)
-    out.inputs.add({base + each.name, each.unit, "target; setting it selects this mode",
-                    out.machine.index(), each.range.lower, each.range.upper, true},
-                   joint_input(out.world, handle, each, base + each.name));
+    if (!led)
+      out.inputs.add({base + each.name, each.unit, "target; setting it selects this mode",
+                      out.machine.index(), each.range.lower, each.range.upper, true},
+                     joint_input(out.world, handle, each, base + each.name));
   out.outputs.add({base + "position", channels[0].unit, "joint position"},
                   [handle] { return handle.position(); });
   out.outputs.add({base + "velocity", channels[1].unit, "joint velocity"},

@@ -64,6 +64,8 @@ void add_stability_channels(const MachineChannels& out);
 /// Declares an output for the counts of every encoder, and inputs for its errors: slip and missed
 /// counts.
 void add_encoder_channels(const MachineChannels& out);
+/// Declares inputs for the forces on all links with a force input.
+void add_force_channels(const MachineChannels& out);
 /// Declares outputs for soil forces, rock forces and payload of a tool and, for a bucket, the
 /// position and velocity of its tip.
 void add_tool_channels(const ToolHandle& tool, const ChannelLists& out);
