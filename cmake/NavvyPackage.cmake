@@ -71,7 +71,7 @@ foreach(header IN LISTS public_headers)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/navvy/${folder})
 endforeach()
 
-foreach(data vehicles sensors terrain scenarios)
+foreach(data vehicles buckets sensors terrain scenarios)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${data} DESTINATION ${CMAKE_INSTALL_DATADIR}/navvy)
 endforeach()
 

@@ -182,6 +182,7 @@ Body make_body(const scene::Visual& visual) {
     case scene::Geometry::Kind::kMesh:
       break;
   }
+  if (g.made) return mesh_body(*g.made, g.scale.cast<float>(), look);
   return read_body(g.mesh_file, g.scale.cast<float>(), look);
 }
 

@@ -33,7 +33,7 @@ bool is_of_whole(const Element& element) {
 /// <parent> and <child> belong to SDF; the schema knows the extension elements.
 bool holds_name(const Element& element) {
   return is_called(element, "parent") || is_called(element, "child") ||
-         schema().refers_to_part(element.Name());
+         is_called(element, "gearbox_reference_body") || schema().refers_to_part(element.Name());
 }
 
 /// Copies a part's elements into the whole under the part's name.
@@ -83,6 +83,7 @@ class Part {
       // These are the attributes of SDF that hold the name of a frame.
       for (const char* key : {"relative_to", "attached_to", "expressed_in"})
         names_another |= std::strcmp(at->Name(), key) == 0;
+      names_another |= is_called(from, "mimic") && std::strcmp(at->Name(), "joint") == 0;
       to.SetAttribute(at->Name(), names_another ? renamed(at->Value()).c_str() : at->Value());
     }
     for (const auto* node = from.FirstChild(); node; node = node->NextSibling()) {

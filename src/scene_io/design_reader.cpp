@@ -1,53 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/design_reader.h"
 
-#include <algorithm>
+#include <optional>
 #include <utility>
 
-#include "core/limits.h"
+#include "scene/polygon.h"
 #include "scene_io/element_reader.h"
 #include "scene_io/ground_reader.h"
 #include "scene_io/landxml.h"
 
 namespace navvy::scene_io {
 namespace {
-
-/// Returns the side of the line a-b on which c is: above 0 left, 0 on it.
-double side(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// Returns true if two edges without a common corner meet.
-/// The boxes of the edges decide where all four points are on one line, which the signs cannot.
-bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0 &&
-         std::max(a.x(), b.x()) >= std::min(c.x(), d.x()) &&
-         std::max(c.x(), d.x()) >= std::min(a.x(), b.x()) &&
-         std::max(a.y(), b.y()) >= std::min(c.y(), d.y()) &&
-         std::max(c.y(), d.y()) >= std::min(a.y(), b.y());
-}
-
-/// An area needs an inside: separate corners, and edges that meet at their corners only.
-void check_polygon(const Element& at, const std::vector<Vec2>& polygon, Faults& faults) {
-  const std::size_t n = polygon.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % n];
-    // The sides of the area rise from its edges; one shorter than 1 mm has no reliable direction.
-    if ((b - a).norm() < 1e-3) {
-      faults.error(at, std::to_string(i + 1), "this corner and the next are the same place",
-                   "remove one; the polygon closes by itself");
-      return;
-    }
-    // Neighbouring edges share a corner and are left out, the first and the last one too.
-    for (std::size_t k = i + 2; k < n && !(i == 0 && k == n - 1); ++k)
-      if (cross(a, b, polygon[k], polygon[(k + 1) % n])) {
-        faults.error(at, std::to_string(i + 1) + " and " + std::to_string(k + 1),
-                     "the edges that begin at these corners cross",
-                     "list the corners once round the area");
-        return;
-      }
-  }
-}
 
 void finish_area(const Element& element, scene::DesignArea& area, Faults& faults) {
   area.line = element.GetLineNum();
@@ -65,17 +28,8 @@ void finish_area(const Element& element, scene::DesignArea& area, Faults& faults
 std::vector<Vec2> polygon_of(const Element& at, const std::vector<double>& numbers,
                              Faults& faults) {
   std::vector<Vec2> polygon;
-  if (numbers.size() < 6 || numbers.size() % 2 != 0 ||
-      numbers.size() > 2 * limits::kDesignCorners) {
-    faults.error(
-        at, std::to_string(numbers.size()) + " numbers",
-        "a polygon is x and y of 3 to " + std::to_string(limits::kDesignCorners) + " corners",
-        "e.g. 0 0 4 0 4 2 0 2");
-    return polygon;
-  }
-  for (std::size_t i = 0; i < numbers.size(); i += 2)
-    polygon.emplace_back(numbers[i], numbers[i + 1]);
-  check_polygon(at, polygon, faults);
+  if (const std::optional<scene::PolygonFault> fault = scene::polygon_of(numbers, polygon))
+    faults.error(at, fault->value, fault->rule, fault->remedy);
   return polygon;
 }
 

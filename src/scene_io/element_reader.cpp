@@ -291,6 +291,7 @@ void ElementReader::group(const scene::Group& group,
 }
 
 void ElementReader::list(const scene::List& list) {
+  if (list.mark.has(Mark::kDerived)) return;
   if (mixed_ && list.mark.has(Mark::kSdf)) {
     // libsdformat has made the items; only what is in navvy: is read here.
     for (std::size_t i = 0; i < list.size; ++i) {
@@ -380,6 +381,17 @@ std::vector<Element*> children_of(Element& parent, std::initializer_list<const c
     for (const char* name : names)
       if (std::string_view(name) == e->Name()) out.push_back(e);
   return out;
+}
+
+void add_missing(Element& to, const Element& from) {
+  for (const Element* child = from.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
+    Element* own = to.FirstChildElement(child->Name());
+    if (own == nullptr)
+      Document::append_copy(to, *child);
+    else if (child->FirstChildElement() != nullptr)
+      add_missing(*own, *child);
+  }
 }
 
 bool require_name(const Element& at, const std::string& name, const std::string& what,

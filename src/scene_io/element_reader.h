@@ -92,6 +92,8 @@ inline bool has(const Element& element, const char* name) {
 const Element& child_or_self(const Element& element, const char* name);
 /// Returns the children with any of these names, in the order of the file.
 std::vector<Element*> children_of(Element& parent, std::initializer_list<const char*> names);
+/// Copies what is in `from` and not in `to`; elements that hold elements are merged.
+void add_missing(Element& to, const Element& from);
 /// Reports an error at the element `at` unless `name` is one of `names`. `what` describes the
 /// missing object in the message, e.g. "link of this name in the model". Returns true if the name
 /// is one of them.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/limits.h"
+#include "scene_io/bucket_reader.h"
 #include "scene_io/machine_reader.h"
 #include "scene_io/machine_rules.h"
 #include "scene_io/mesh_path.h"
@@ -106,12 +107,16 @@ scene::MachineInWorld read_instance(Element& element, const scene::Scene& world,
   names.joints = names_in_list(instance.machine.joints);
   names.shells = names_in_list(instance.machine.shells);
   for (Element* sensor : children_of(element, {"navvy:sensor"})) fill_in_preset(*sensor, faults);
+  Element* bucket = is_include ? element.FirstChildElement("navvy:bucket") : nullptr;
+  if (bucket != nullptr) fill_in_bucket(*bucket, faults);
   names.soils = names_in_list(world.soils);
   if (!names.soils.empty()) instance.load.soil = names.soils[0];
   const bool kinematic_file = is_include && instance.machine.kinematic;
   // An <include> has fields of its own beside those of the machine; a <model> was read above.
   ElementReader reader(element, &names, faults, true);
   instance.describe_instance(reader);
+  if (bucket != nullptr && instance.bucket)
+    fit_bucket(*bucket, *instance.bucket, instance.machine, faults);
   if (const Element* physics = element.FirstChildElement("navvy:physics");
       kinematic_file && physics != nullptr && !instance.machine.kinematic) {
     faults.error(*physics, text_of(*physics),

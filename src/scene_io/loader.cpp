@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "scene_io/bucket_reader.h"
 #include "scene_io/foreign.h"
 #include "scene_io/machine_reader.h"
 #include "scene_io/materials_reader.h"
@@ -114,6 +115,8 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:materials")) {
     scene::Materials table;
     read_materials_file(file, table, faults);
+  } else if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:bucket")) {
+    check_bucket_file(*document, faults);
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
     scene::Machine read = read_machine_file(file, faults);
     if (machine != nullptr && faults.error_count() == 0) *machine = std::move(read);

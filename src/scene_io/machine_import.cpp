@@ -10,15 +10,18 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "geometry/hull.h"
+#include "geometry/oriented_box.h"
 #include "geometry/primitive_solids.h"
 #include "geometry/read_mesh.h"
 #include "geometry/solid_properties.h"
+#include "scene_io/arm_import.h"
 #include "scene_io/assembly.h"
 #include "scene_io/element_reader.h"
 #include "scene_io/foreign_private.h"
 #include "scene_io/found_wheels.h"
 #include "scene_io/loader.h"
 #include "scene_io/machine_reader.h"
+#include "scene_io/mass_file.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_rules.h"
 
@@ -62,13 +65,28 @@ class Maker {
       : document_(document), model_(model), machine_(std::move(machine)), options_(options) {}
 
   std::vector<std::string> make(Faults& faults) {
+    if (!options_.masses.empty())
+      masses_ = read_masses(options_.masses, names_in_list(machine_.links));
     copy_meshes(model_, faults);
     weigh();
+    for (const std::string& sentence :
+         import_arm(document_, model_, machine_, placeholders_.empty()))
+      say(sentence);
     start_within_limits();
     add_wheels();
-    say("not recognised: arms, buckets, beds and cylinders; add navvy:arm, navvy:shell, "
-        "navvy:bucket and navvy:cylinder where the machine has them");
+    name_overlaps();
+    say("not recognised: beds; add navvy:bed where the machine has one");
     return std::move(report_);
+  }
+
+  /// Returns the text of a file of masses with the links whose masses are placeholders; empty
+  /// without any.
+  std::string masses_to_fill_in() const {
+    if (placeholders_.empty()) return "";
+    std::string text =
+        "# Masses of links in kg: correct them, then import again with --masses.\nlink,mass_kg\n";
+    for (const std::string& line : placeholders_) text += line + "\n";
+    return text;
   }
 
  private:
@@ -120,7 +138,8 @@ class Maker {
     }
   }
 
-  /// Names masses that are placeholders, and replaces them if a density was given.
+  /// Sets the masses of the side file, names those that are placeholders, and replaces them if a
+  /// density was given.
   void weigh() {
     for (scene::Link& link : machine_.links) {
       geometry::SolidProperties sum;
@@ -129,19 +148,86 @@ class Maker {
       if (link.collisions.empty())
         for (const scene::Visual& shape : link.visuals)
           sum = joined_with(sum, shape.geometry, shape.X_LV);
+      if (const auto given = masses_.find(link.name); given != masses_.end()) {
+        say("filled in: link '" + link.name + "' weighs " + short_text(given->second) +
+            " kg, not " + short_text(link.mass, 4) +
+            (sum.volume > 0 ? "; centre and inertia follow from its shapes"
+                            : "; without shapes it keeps its centre"));
+        set_mass(link, given->second, sum);
+        continue;
+      }
       if (!(sum.volume > 0) || link.mass >= kLeastDensity * sum.volume) continue;
       const std::string what = "link '" + link.name + "' has " + short_text(link.mass) +
                                " kg in shapes of " + short_text(sum.volume) + " m3, a placeholder";
       if (!(options_.density > 0)) {
-        say("kept: " + what + "; --mass-from-density KG_PER_M3 replaces it");
+        placeholders_.push_back(link.name + "," + short_text(link.mass));
+        say("kept: " + what +
+            "; --mass-from-density KG_PER_M3 or --masses FILE replaces it (masses.csv lists them)");
         continue;
       }
-      link.mass = options_.density * sum.volume;
-      link.p_LCom = sum.p_BCom;
-      link.inertia = options_.density * sum.inertia;
-      if (Element* element = link_element(link.name)) write_inertial(*element, link);
+      set_mass(link, options_.density * sum.volume, sum);
       say("replaced: " + what + ": " + short_text(link.mass) + " kg by the density");
     }
+  }
+
+  /// Gives a link a mass, with centre and inertia of its shapes if they have a volume.
+  void set_mass(scene::Link& link, double mass, const geometry::SolidProperties& shapes) {
+    if (shapes.volume > 0) {
+      link.p_LCom = shapes.p_BCom;
+      link.inertia = mass / shapes.volume * shapes.inertia;
+    } else {
+      link.inertia *= mass / link.mass;
+    }
+    link.mass = mass;
+    if (Element* element = link_element(link.name)) write_inertial(*element, link);
+  }
+
+  /// Names links that are in each other without a joint between them. Shapes count as boxes.
+  void name_overlaps() {
+    constexpr double kDeep = 0.02;
+    constexpr std::size_t kNamed = 5;
+    std::vector<std::vector<geometry::OrientedBox>> boxes;
+    for (const scene::Link& link : machine_.links) {
+      boxes.emplace_back();
+      for (const scene::Collision& one : link.collisions)
+        boxes.back().push_back(box_of(one.geometry, link.X_ML * one.X_LC));
+    }
+    std::size_t found = 0;
+    for (std::size_t a = 0; a < boxes.size(); ++a)
+      for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+        const scene::Joint& above = machine_.joints[b - 1];
+        if (above.parent == static_cast<int>(a)) continue;
+        double depth = 0;
+        for (const geometry::OrientedBox& one : boxes[a])
+          for (const geometry::OrientedBox& other : boxes[b])
+            depth = std::max(depth, geometry::penetration(one, other));
+        if (depth < kDeep || ++found > kNamed) continue;
+        say("overlapping: the hulls of links '" + machine_.links[a].name + "' and '" +
+            machine_.links[b].name + "' are " + short_text(depth, 2) +
+            " m in each other, as boxes; links of one machine never collide with each other");
+      }
+    if (found > kNamed)
+      say("overlapping: " + std::to_string(found - kNamed) + " more pairs of links");
+  }
+
+  /// Returns a box around a shape.
+  static geometry::OrientedBox box_of(const scene::Geometry& shape, const Pose& X_MS) {
+    using Kind = scene::Geometry::Kind;
+    geometry::OrientedBox out;
+    out.X_WO = X_MS;
+    const double r = shape.radius, h = 0.5 * shape.length;
+    out.half = Vec3(r, r,
+                    shape.kind == Kind::kSphere    ? r
+                    : shape.kind == Kind::kCapsule ? h + r
+                                                   : h);
+    if (shape.kind == Kind::kBox) out.half = 0.5 * shape.size;
+    if (shape.kind == Kind::kPlane) out.half = Vec3::Zero();
+    if (shape.kind == Kind::kMesh) {
+      const geometry::Box box = geometry::bounds(geometry::read_mesh(shape.mesh_file));
+      out.half = 0.5 * (box.high - box.low).cwiseProduct(shape.scale.cwiseAbs());
+      out.X_WO.translation() = X_MS * Vec3(0.5 * (box.high + box.low).cwiseProduct(shape.scale));
+    }
+    return out;
   }
 
   static geometry::SolidProperties joined_with(const geometry::SolidProperties& sum,
@@ -293,6 +379,8 @@ class Maker {
   scene::Machine machine_;
   const ImportOptions& options_;
   std::vector<std::string> report_;
+  std::map<std::string, double> masses_;       ///< of the side file [kg]
+  std::vector<std::string> placeholders_;      ///< lines of masses.csv
   std::map<std::string, std::string> copies_;  ///< names of copied meshes by path
   std::set<std::string> names_;                ///< names of copied files
 };
@@ -325,10 +413,15 @@ std::vector<std::string> import_machine(const std::string& file, const ImportOpt
                            "there is a machine already", "name another folder, or remove it"});
   fs::create_directories(options.folder, unknown);
   root.SetAttribute("xmlns:navvy", "navvy");
-  std::vector<std::string> report =
-      Maker(*document, *model, std::move(machine), options).make(faults);
+  Maker maker(*document, *model, std::move(machine), options);
+  std::vector<std::string> report = maker.make(faults);
   faults.finish();
+  for (const Fault& fault : check(file, scene::StepKinds{}))
+    if (fault.severity == Fault::Severity::kWarning)
+      report.push_back("dropped or assumed by the reader: " + fault.text());
   write_file_atomically(to, document->text());
+  if (const std::string masses = maker.masses_to_fill_in(); !masses.empty())
+    write_file_atomically((fs::path(options.folder) / "masses.csv").string(), masses);
   // What was written must be a machine by our own, stricter rules.
   for (const Fault& fault : check(to, scene::StepKinds{}))
     report.push_back((fault.severity == Fault::Severity::kError ? "to correct: " : "note: ") +

@@ -2,11 +2,13 @@
 #include "scene_io/machine_reader.h"
 
 #include "scene_io/assembly.h"
+#include "scene_io/bucket_reader.h"
 #include "scene_io/derived_parts.h"
 #include "scene_io/drive_rules.h"
 #include "scene_io/found_wheels.h"
 #include "scene_io/link_rules.h"
 #include "scene_io/machine_rules.h"
+#include "scene_io/mechanism_reader.h"
 #include "scene_io/sdf_model.h"
 #include "scene_io/sdf_rules.h"
 #include "scene_io/sensor_reader.h"
@@ -22,6 +24,7 @@ void read_extensions(Element& model, const Names& names, scene::Machine& machine
     finish_shell(*e, machine.shells.at(i++), faults);
   Element* drive = model.FirstChildElement("navvy:drive");
   if (drive != nullptr) finish_drive(*drive, machine.drive, faults);
+  finish_mechanisms(model, machine, faults);
   set_initial_positions(model, machine.initial_positions, machine, faults);
   finish_tracks(model, machine, faults);
   check_extensions(model, names, machine, faults);
@@ -50,16 +53,21 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   if (model.Attribute("placement_frame"))
     faults.error(model, attribute(model, "placement_frame"), "placement_frame is not supported",
                  "remove it");
+  for (Element* bucket : children_of(model, {"navvy:bucket"})) fill_in_bucket(*bucket, faults);
   const bool kinematic = child_text(model, "navvy:physics") == "kinematic";
   const std::size_t before = faults.error_count();
   check_links(model, !kinematic && !is_true(child_text(model, "static")), faults);
   check_joints(model, names, faults);
-  if (sdf_sound && faults.error_count() == before) read_sdf_model(model, machine, faults);
+  std::vector<Gearbox> gearboxes;
+  if (sdf_sound && faults.error_count() == before &&
+      read_sdf_model(model, machine, gearboxes, faults))
+    read_gears(model, gearboxes, machine, faults);
   for (scene::Link& link : machine.links)
     if (const Element* element = named_child(model, "link", link.name))
       link.material.line = place_of(child_or_self(*element, "navvy:material")).line;
   read_extensions(model, names, machine, faults);
   read_sensors(model, names, machine, faults);
+  make_buckets(model, machine, faults);
   // Wheels and shells decide which links have other contact shapes.
   derive_parts(model, machine, faults);
   warn_of_rigid_wheels(model, machine, faults);

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "scene_io/bucket_reader.h"
+#include "scene_io/mechanism_reader.h"
+
 namespace navvy::scene_io {
 
 namespace {
@@ -87,21 +90,6 @@ void check_bed(const Element& element, std::size_t index, const Names& names,
   if (tipped != bed.link)
     faults.error(element, bed.joint, "the joint moves link '" + tipped + "', not the bed's",
                  "name the joint that tips it");
-}
-
-/// Teeth stand side by side on the cutting edge.
-void check_teeth(const Element& element, const scene::Bucket& bucket, Faults& faults) {
-  const Element* teeth = element.FirstChildElement("teeth");
-  if (teeth == nullptr || !bucket.teeth) return;
-  const double width = bucket.teeth->number * bucket.teeth->width;
-  // The factor allows for rounding where the teeth fill the width exactly.
-  if (width > bucket.width * (1 + 1e-9))
-    faults.error(child_or_self(*teeth, "width_m"),
-                 std::to_string(bucket.teeth->number) + " teeth of " +
-                     scene::short_text(bucket.teeth->width) + " m",
-                 "together, the teeth are at most as wide as the bucket, " +
-                     scene::short_text(bucket.width) + " m",
-                 "give fewer or narrower teeth, or correct width_m of the bucket");
 }
 
 /// A plane carries whatever rests on it, everywhere: only the rock under the ground can be one.
@@ -237,6 +225,7 @@ void set_initial_positions(Element& parent, const std::vector<scene::InitialPosi
       faults.error(element, text_of(*element.FirstChildElement()),
                    "must be within the limits of the joint");
   }
+  close_at_start(parent, positions, machine, faults);
 }
 
 }  // namespace navvy::scene_io

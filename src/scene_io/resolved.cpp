@@ -10,6 +10,7 @@
 
 #include "core/hash.h"
 #include "scene_io/assembly.h"
+#include "scene_io/bucket_reader.h"
 #include "scene_io/element_reader.h"
 #include "scene_io/loader.h"
 #include "scene_io/materials_reader.h"
@@ -96,6 +97,8 @@ class Resolver {
   void meshes(Element& model);
   /// Writes out the presets of the sensors in `parent`.
   void sensors(Element& parent);
+  /// Writes out the bucket files of the buckets in `parent`.
+  void buckets(Element& parent);
   void list_files();
 
  private:
@@ -178,6 +181,14 @@ void Resolver::sensors(Element& parent) {
   });
 }
 
+void Resolver::buckets(Element& parent) {
+  visit_all(parent, [&](Element& element) {
+    if (!is_called(&element, "navvy:bucket")) return;
+    fill_in_bucket(element, none_);
+    element.DeleteAttribute("ref");
+  });
+}
+
 void Resolver::include(Element& element) {
   Element* uri = element.FirstChildElement("uri");
   std::string path;
@@ -192,6 +203,7 @@ void Resolver::include(Element& element) {
     return keep(*uri, absolute(path));
   meshes(*model);
   sensors(*model);
+  buckets(*model);
   // The copy belongs to this document; the machine's own document ends with this function.
   Element& inlined = *model->DeepClone(element.GetDocument())->ToElement();
   if (element.FirstChildElement("name"))
@@ -244,6 +256,7 @@ std::string resolved_text(Document& document, const scene::Scene& world) {
        e = e->NextSiblingElement("model"))
     resolver.meshes(*e);
   resolver.sensors(root);
+  resolver.buckets(root);
   for (Element* e = root.FirstChildElement("include"); e != nullptr;) {
     // The include is replaced by a model.
     Element* next = e->NextSiblingElement("include");

@@ -65,6 +65,7 @@ class Builder final : public scene::Fields {
     describe(inner);
   }
   void list(const scene::List& list) override {
+    if (list.mark.has(Mark::kDerived)) return;
     for (std::size_t kind = 0; kind < list.kinds.size(); ++kind) {
       SchemaNode& out = add(list.kinds[kind].name, list.kinds[kind].text, list.mark);
       // Machines are <include> or <model> in a file; to a user they are machines.

@@ -46,20 +46,25 @@ bool equals_default(const Element& parent, const Element& element) {
   // Gazebo's defaults of bodies that do not rebound.
   if (is_called(element, "threshold")) return number() >= 1e5;
   if (is_called(element, "mu2")) return text_of(element) == child_text(parent, "mu");
-  // Without stiffness a spring has no rest position.
-  if (is_called(element, "spring_reference"))
-    return loose_number(child_text(parent, "spring_stiffness"), 0) == 0;
   if (is_called(parent, "joint")) {
     const std::string type = attribute(parent, "type");
     if (is_one_of(element, {"thread_pitch", "screw_thread_pitch"})) return type != "screw";
-    if (is_one_of(element, {"gearbox_ratio", "gearbox_reference_body"})) return type != "gearbox";
-    if (is_called(element, "axis2")) return type != "revolute2" && type != "universal";
   }
-  return is_one_of(element, {"kinematic", "enable_wind", "self_collide", "must_be_base_link",
-                             "velocity_decay", "restitution_coefficient", "slip1", "slip2", "fdir1",
-                             "spring_stiffness", "transparency", "laser_retro", "fluid_added_mass",
-                             "wind", "max_contacts"}) &&
+  return is_one_of(element,
+                   {"kinematic", "enable_wind", "self_collide", "must_be_base_link",
+                    "velocity_decay", "restitution_coefficient", "slip1", "slip2", "fdir1",
+                    "transparency", "laser_retro", "fluid_added_mass", "wind", "max_contacts"}) &&
          is_zero(element);
+}
+
+/// Returns true for an element that belongs to other types of joints: writers of SDF put it into
+/// every joint.
+bool is_of_other_joint(const Element& parent, const Element& element) {
+  if (!is_called(parent, "joint")) return false;
+  const std::string type = attribute(parent, "type");
+  if (is_one_of(element, {"gearbox_ratio", "gearbox_reference_body"})) return type != "gearbox";
+  return is_called(element, "axis2") && type != "revolute2" && type != "universal" &&
+         type != "gearbox";
 }
 
 /// Returns true for an element that is refused in files of our own, but whose absence leaves a
@@ -91,8 +96,8 @@ class Cleaning {
         parent.DeleteChild(e);
       } else if (is_part(parent, *e) ||
                  sdf_treatment(parent.Name(), e->Name()) == SdfTreatment::kRead) {
-        // A sensor has a reader of its own, with rules of its own.
-        if (!is_called(*e, "sensor")) clean(*e);
+        // These have readers of their own, with rules of their own.
+        if (!is_one_of(*e, {"sensor", "mimic"})) clean(*e);
         complete(*e);
       }
       e = next;
@@ -107,6 +112,7 @@ class Cleaning {
       take_density(parent, element);
       return true;
     }
+    if (is_of_other_joint(parent, element)) return true;
     // assembly.h merges models inside models.
     if (is_part(parent, element)) return false;
     const bool shape = is_one_of(element, {"visual", "collision"});

@@ -200,6 +200,7 @@ scene::Link read_link(const sdf::Link& from, const Element& xml, bool moves, Fau
 struct NamedJoint {
   scene::Joint joint;
   std::string parent, child;
+  bool in_tree = false;
 };
 
 void read_axis(const sdf::Joint& from, const Element& xml, scene::Joint& joint, Faults& faults) {
@@ -222,6 +223,8 @@ void read_axis(const sdf::Joint& from, const Element& xml, scene::Joint& joint, 
     joint.velocity = axis->MaxVelocity();
   joint.damping = axis->Damping();
   joint.friction = axis->Friction();
+  joint.stiffness = axis->SpringStiffness();
+  joint.rest = axis->SpringReference();
 }
 
 NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults) {
@@ -256,73 +259,190 @@ NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults
   return out;
 }
 
-// Orders links from the base outward; every other link must be the child of one joint.
-void order_tree(const Element& model, std::vector<scene::Link> links,
-                std::vector<NamedJoint> joints, scene::Machine& machine, Faults& faults) {
-  auto element_of = [&](const char* kind, const std::string& name) -> const Element& {
-    const Element* element = named_child(model, kind, name);
-    return element ? *element : model;
-  };
-  const std::size_t before = faults.error_count();
-  // All faults of the tree are reported before reading ends.
-  std::vector<std::string> moved;
-  for (const NamedJoint& joint : joints) {
-    // A joint to the world moves no link in the tree; it only fixes the base.
-    if (joint.parent == "world") continue;
-    if (std::find(moved.begin(), moved.end(), joint.child) != moved.end())
-      faults.error(element_of("joint", joint.joint.name), joint.child,
-                   "a link can be the child of one joint only",
-                   "closed loops such as cylinders are described by navvy:cylinder");
-    moved.push_back(joint.child);
+/// Reads a joint of the type gearbox.
+Gearbox read_gearbox(const sdf::Joint& from, const Element& xml, Faults& faults) {
+  Gearbox out;
+  out.name = unveiled(from.Name());
+  report(xml, from.ResolveParentLink(out.parent), faults);
+  report(xml, from.ResolveChildLink(out.child), faults);
+  out.parent = unveiled(out.parent);
+  out.child = unveiled(out.child);
+  out.reference = child_text(xml, "gearbox_reference_body");
+  // check_joints has made sure that it is a number.
+  if (const Element* ratio = xml.FirstChildElement("gearbox_ratio"))
+    to_number(text_of(*ratio), out.ratio);
+  for (const unsigned i : {0u, 1u}) {
+    const sdf::JointAxis* axis = from.Axis(i);
+    // A missing second axis is parallel to the first.
+    if (axis == nullptr) axis = from.Axis(0);
+    ignition::math::Vector3d xyz(0, 0, 1);
+    if (axis != nullptr) report(xml, axis->ResolveXyz(xyz, "__model__"), faults);
+    (i == 0 ? out.parent_axis : out.child_axis) = to_vec3(xyz).normalized();
   }
-  std::vector<std::size_t> bases;
-  for (std::size_t i = 0; i < links.size(); ++i)
-    if (std::find(moved.begin(), moved.end(), links[i].name) == moved.end()) bases.push_back(i);
-  if (bases.empty())
-    faults.error(model, "", "the joints form a loop: no link is the base",
-                 "remove the joint that closes it: links form a tree");
-  for (std::size_t i = 1; i < bases.size(); ++i)
-    faults.error(element_of("link", links[bases[i]].name), links[bases[i]].name,
-                 "no joint connects this link to the base '" + links[bases[0]].name + "'",
-                 "add a joint (type fixed to weld it), or make it a model of its own");
-  if (faults.error_count() > before) return;
-
-  // Breadth first from the base; below one parent in the order of the file.
-  machine.links.push_back(links[bases[0]]);
-  for (std::size_t i = 0; i < machine.links.size(); ++i) {
-    for (NamedJoint& joint : joints) {
-      // Taken anew for each joint, as the push_back below may move the links.
-      const scene::Link& parent = machine.links[i];
-      if (joint.parent != parent.name) continue;
-      const auto child = std::find_if(links.begin(), links.end(), [&](const scene::Link& link) {
-        return link.name == joint.child;
-      });
-      joint.joint.parent = static_cast<int>(i);
-      joint.joint.child = static_cast<int>(machine.links.size());
-      machine.joints.push_back(joint.joint);
-      machine.links.push_back(*child);
-    }
-  }
-  // A separate loop is never reached from the base.
-  if (machine.links.size() != links.size())
-    faults.error(model, "", "the joints form a loop beside the base",
-                 "remove the joint that closes it: links form a tree");
-
-  for (const NamedJoint& joint : joints) {
-    if (joint.parent != "world") continue;
-    if (joint.joint.type == scene::Joint::Type::kFixed && joint.child == machine.links[0].name) {
-      machine.fixed_base = true;
-    } else {
-      faults.error(element_of("joint", joint.joint.name), joint.child,
-                   "only the base link can be joined to the world, by a fixed joint",
-                   "put a small link between, fix that to the world");
-    }
-  }
+  return out;
 }
+
+/// Arranges links and joints as a tree. Joints into links that are part of it close loops.
+class Tree {
+ public:
+  Tree(const Element& model, const std::vector<scene::Link>& links, std::vector<NamedJoint>& joints,
+       scene::Machine& machine, Faults& faults)
+      : model_(model), links_(links), joints_(joints), machine_(machine), faults_(faults) {}
+
+  void build() {
+    const scene::Link* base = find_base();
+    if (base == nullptr) return;
+    machine_.links.push_back(*base);
+    grow(true);
+    // Where the first joint into a link starts from a link that is not reached, another one may.
+    while (machine_.links.size() < links_.size() && grow(false)) grow(true);
+    if (machine_.links.size() < links_.size()) {
+      // A separate loop is never reached from the base.
+      faults_.error(model_, "", "the joints form a loop beside the base",
+                    "connect one of its links to the base '" + base->name + "' by a joint");
+      return;
+    }
+    close_loops();
+    fix_to_world();
+  }
+
+ private:
+  const Element& element_of(const char* kind, const std::string& name) const {
+    const Element* element = named_child(model_, kind, name);
+    return element ? *element : model_;
+  }
+  bool is_moved(const std::string& link) const {
+    return std::any_of(joints_.begin(), joints_.end(), [&](const NamedJoint& joint) {
+      return joint.parent != "world" && joint.child == link;
+    });
+  }
+  bool is_held(const std::string& link) const {
+    return std::any_of(joints_.begin(), joints_.end(), [&](const NamedJoint& joint) {
+      return joint.parent == "world" && joint.child == link;
+    });
+  }
+
+  /// Returns the one link that no joint moves; in a ring, the one that is fixed to the world. Null
+  /// after an error.
+  const scene::Link* find_base() const {
+    std::vector<const scene::Link*> bases;
+    for (const scene::Link& link : links_)
+      if (!is_moved(link.name)) bases.push_back(&link);
+    if (bases.empty())
+      for (const scene::Link& link : links_)
+        if (is_held(link.name)) bases.push_back(&link);
+    if (bases.empty()) {
+      faults_.error(model_, "", "the joints form a loop: no link is the base",
+                    "fix one of its links to the world by a fixed joint, exchange <parent> and "
+                    "<child> of the joint into the link that is to be the base, or remove a joint");
+      return nullptr;
+    }
+    for (std::size_t i = 1; i < bases.size(); ++i)
+      faults_.error(element_of("link", bases[i]->name), bases[i]->name,
+                    "no joint connects this link to the base '" + bases[0]->name + "'",
+                    way_to(bases[i]->name));
+    return bases.size() == 1 ? bases[0] : nullptr;
+  }
+
+  /// Returns how a link that is no child can become one.
+  std::string way_to(const std::string& link) const {
+    for (const NamedJoint& joint : joints_)
+      if (joint.parent == link)
+        return "exchange <parent> and <child> of joint '" + joint.joint.name +
+               "', or add a joint to this link";
+    return "add a joint (type fixed to weld it), or make it a model of its own";
+  }
+
+  /// Returns true if a joint comes before all others into its link.
+  bool is_first(std::size_t joint) const {
+    for (std::size_t j = 0; j < joint; ++j)
+      if (joints_[j].child == joints_[joint].child && joints_[j].parent != "world") return false;
+    return true;
+  }
+
+  /// Adds links, breadth first from those in the tree, below one parent in the order of the file:
+  /// with `first`, all that the first joint into them reaches, otherwise one that another one does.
+  /// Returns true if there was any.
+  bool grow(bool first) {
+    bool any = false;
+    for (std::size_t i = 0; i < machine_.links.size(); ++i)
+      for (std::size_t j = 0; j < joints_.size(); ++j) {
+        NamedJoint& joint = joints_[j];
+        // Taken anew for each joint, as the push_back below may move the links.
+        if (joint.parent != machine_.links[i].name || machine_.link_index(joint.child) >= 0 ||
+            (first && !is_first(j)))
+          continue;
+        const auto child = std::find_if(links_.begin(), links_.end(), [&](const scene::Link& link) {
+          return link.name == joint.child;
+        });
+        if (child == links_.end()) continue;
+        joint.joint.parent = static_cast<int>(i);
+        joint.joint.child = static_cast<int>(machine_.links.size());
+        joint.in_tree = true;
+        machine_.joints.push_back(joint.joint);
+        machine_.links.push_back(*child);
+        any = true;
+        if (!first) return true;
+      }
+    return any;
+  }
+
+  /// Makes the joints that the tree does not need the closing ones.
+  void close_loops() {
+    for (const NamedJoint& joint : joints_) {
+      if (joint.in_tree || joint.parent == "world") continue;
+      scene::LoopJoint loop;
+      loop.name = joint.joint.name;
+      // Both types have the same values.
+      loop.type = static_cast<scene::LoopJoint::Type>(joint.joint.type);
+      loop.parent = machine_.link_index(joint.parent);
+      loop.child = machine_.link_index(joint.child);
+      loop.axis = joint.joint.axis;
+      loop.X_LcJ = joint.joint.X_LcJ;
+      loop.X_LpJ = machine_.links[static_cast<std::size_t>(loop.parent)].X_ML.inverse() *
+                   machine_.links[static_cast<std::size_t>(loop.child)].X_ML * loop.X_LcJ;
+      check_closing(joint.joint);
+      machine_.loops.push_back(loop);
+    }
+  }
+
+  /// Reports what a joint that closes a loop cannot have.
+  void check_closing(const scene::Joint& joint) const {
+    const Element& element = element_of("joint", joint.name);
+    const std::string remedy = "write it before the other joint into link '" +
+                               child_text(element, "child") + "', which then closes the loop";
+    if (joint.stiffness > 0)
+      faults_.error(element, joint.name, "a joint that closes a loop has no spring", remedy);
+    else if (joint.has_limits || joint.damping > 0 || joint.friction > 0)
+      faults_.warning(element, joint.name,
+                      "limits, damping and friction of a joint that closes a loop have no effect",
+                      remedy);
+  }
+
+  void fix_to_world() {
+    for (const NamedJoint& joint : joints_) {
+      if (joint.parent != "world") continue;
+      if (joint.joint.type == scene::Joint::Type::kFixed && joint.child == machine_.links[0].name) {
+        machine_.fixed_base = true;
+      } else {
+        faults_.error(element_of("joint", joint.joint.name), joint.child,
+                      "only the base link can be joined to the world, by a fixed joint",
+                      "put a small link between, fix that to the world");
+      }
+    }
+  }
+
+  const Element& model_;
+  const std::vector<scene::Link>& links_;
+  std::vector<NamedJoint>& joints_;
+  scene::Machine& machine_;
+  Faults& faults_;
+};
 
 }  // namespace
 
-bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& faults) {
+bool read_sdf_model(const Element& model, scene::Machine& machine, std::vector<Gearbox>& gearboxes,
+                    Faults& faults) {
   const std::size_t before = faults.error_count();
   // Its console would print beside our messages.
   sdf::Console::Instance()->SetQuiet(true);
@@ -343,12 +463,15 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
     std::vector<NamedJoint> joints;
     for (std::uint64_t i = 0; i < from.JointCount(); ++i) {
       const sdf::Joint& joint = *from.JointByIndex(i);
-      if (const Element* xml = named_child(model, "joint", unveiled(joint.Name())))
+      const Element* xml = named_child(model, "joint", unveiled(joint.Name()));
+      if (xml == nullptr) continue;
+      if (joint.Type() == sdf::JointType::GEARBOX)
+        gearboxes.push_back(read_gearbox(joint, *xml, faults));
+      else
         joints.push_back(read_joint(joint, *xml, faults));
     }
     // A faulty model has no tree.
-    if (faults.error_count() == before)
-      order_tree(model, std::move(links), std::move(joints), machine, faults);
+    if (faults.error_count() == before) Tree(model, links, joints, machine, faults).build();
   } catch (const std::exception& failure) {
     faults.error(model, "", std::string("libsdformat failed: ") + failure.what());
     // sdf::Exception is not a std::exception.

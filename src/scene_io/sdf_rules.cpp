@@ -138,22 +138,23 @@ const Rule kRules[] = {
     {"plane", "normal", kUsed, kNumbers3},
     {"plane", "size", kUsed, kAny},
 
-    // A joint has one axis; couplings and springs would change the motion.
+    // A joint has one axis, but the gearbox's angles have one each.
     {"joint", "parent child", kUsed, kText},
     {"joint", "axis"},
-    {"joint", "axis2", kError, kAny, "joints have one axis; use two joints and a small link"},
+    {"joint", "axis2"},
     {"joint", "physics", kWarn, kAny, "settings of other engines"},
     {"joint", "sensor", kWarn, kAny, "give a link a sensor of type navvy:joint"},
     {"joint", "thread_pitch screw_thread_pitch", kError, kNumber, "screw joints are not supported"},
-    {"joint", "gearbox_ratio", kError, kNumber, "gearbox joints are not supported"},
-    {"joint", "gearbox_reference_body", kError, kText, "gearbox joints are not supported"},
-    {"axis", "xyz", kUsed, kNumbers3, "", {-1e3, 1e3}},
-    {"axis", "limit dynamics"},
+    {"joint", "gearbox_ratio", kUsed, kNumber, "", {-1e6, 1e6}},
+    {"joint", "gearbox_reference_body", kUsed, kText},
+    {"axis axis2", "xyz", kUsed, kNumbers3, "", {-1e3, 1e3}},
+    {"axis", "mimic", kOwn, kAny},
+    {"axis axis2", "limit dynamics"},
     {"limit", "lower upper effort velocity", kUsed, kNumber},
     {"limit", "stiffness dissipation", kError, kNumber, "joint stops are firm"},
     {"dynamics", "damping friction", kUsed, kNumber, "", {0, 1e12}},
-    {"dynamics", "spring_reference spring_stiffness", kError, kNumber,
-     "joint springs are not supported"},
+    {"dynamics", "spring_stiffness", kUsed, kNumber, "", {-1e12, 1e12}},
+    {"dynamics", "spring_reference", kUsed, kNumber, "", {-1e6, 1e6}},
 };
 
 /// Rules by the names of parent and element.

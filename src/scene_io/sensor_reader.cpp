@@ -39,18 +39,6 @@ const std::set<std::string>& ignored_types() {
   return types;
 }
 
-/// Copies what is in `from` and not in `to`; elements that hold elements are merged.
-void merge(Element& to, const Element& from) {
-  for (const Element* child = from.FirstChildElement(); child;
-       child = child->NextSiblingElement()) {
-    Element* own = to.FirstChildElement(child->Name());
-    if (own == nullptr)
-      Document::append_copy(to, *child);
-    else if (child->FirstChildElement() != nullptr)
-      merge(*own, *child);
-  }
-}
-
 /// Returns the names of the shipped presets.
 std::vector<std::string> presets() {
   std::vector<std::string> out;
@@ -308,7 +296,7 @@ void fill_in_preset(Element& sensor, Faults& faults) {
                  "remove the attribute type, or name another preset");
     return;
   }
-  merge(sensor, *preset);
+  add_missing(sensor, *preset);
 }
 
 void read_sensors(Element& model, const Names& names, scene::Machine& machine, Faults& faults) {

@@ -44,6 +44,7 @@ class Converter {
     for (const Element* e = robot_.FirstChildElement("joint"); e;
          e = e->NextSiblingElement("joint"))
       add_joint(model, *e);
+    add_closing_joints(model);
     add_ground(model);
     add_shapes_of_frames();
     ignore_rest();
@@ -77,7 +78,7 @@ class Converter {
                       "docs/reference/limits.md lists the limits of files");
         return false;
       }
-    read_frictions();
+    read_gazebo();
     if (links_.empty())
       faults_.error(robot_, "", "a <robot> needs at least one <link>", "add a <link>");
     for (const Element* e = robot_.FirstChildElement("joint"); e;
@@ -93,12 +94,16 @@ class Converter {
     return found;
   }
 
-  /// Collects the friction that <gazebo reference="LINK"><mu1> gives to links.
-  void read_frictions() {
+  /// Collects what <gazebo reference="NAME"> gives: the friction of a link as <mu1>, and the spring
+  /// of a joint.
+  void read_gazebo() {
     for (const Element* e = robot_.FirstChildElement("gazebo"); e;
-         e = e->NextSiblingElement("gazebo"))
+         e = e->NextSiblingElement("gazebo")) {
       if (const Element* mu = e->FirstChildElement("mu1"))
         frictions_.try_emplace(attribute(*e, "reference"), mu);
+      if (e->FirstChildElement("springStiffness") != nullptr)
+        springs_.try_emplace(attribute(*e, "reference"), e);
+    }
   }
 
   void read_joint(const Element& joint) {
@@ -117,8 +122,9 @@ class Converter {
       faults_.error(joint, child,
                     "a link can be the child of one joint only; joint '" +
                         attribute(*at->second, "name") + "' moves it already",
-                    "a loop needs a closing row of its own: split the link in two and connect the "
-                    "halves in the scene");
+                    "in URDF links form a tree: write the joint that closes the loop in SDF, as "
+                    "<gazebo><joint name=... type=...><parent>...</parent><child>...</child>"
+                    "<axis>...</axis></joint></gazebo>");
   }
 
   std::vector<std::string> link_names() const {
@@ -354,9 +360,6 @@ class Converter {
     append(document_, to, "parent", *from.FirstChildElement("parent"), on);
     append(document_, to, "child", *from.FirstChildElement("child"), child);
     if (type == "revolute" || type == "continuous" || type == "prismatic") add_axis(to, from, type);
-    if (const Element* mimic = from.FirstChildElement("mimic"))
-      ignored_.add(*mimic, "mimic", "coupled joints are not simulated",
-                   "is ignored: the joint moves freely");
   }
 
   void add_axis(Element& to, const Element& from, const std::string& type) {
@@ -375,12 +378,49 @@ class Converter {
           append(document_, out, key, *limit, value != nullptr ? value : "0");
       }
     }
-    if (const Element* dynamics = from.FirstChildElement("dynamics")) {
-      Element& out = append(document_, axis, "dynamics", *dynamics);
-      for (const char* key : {"damping", "friction"})
-        if (const char* value = dynamics->Attribute(key))
-          append(document_, out, key, *dynamics, value);
-    }
+    add_dynamics(axis, from);
+    if (const Element* mimic = from.FirstChildElement("mimic")) add_mimic(axis, *mimic);
+  }
+
+  /// Adds damping and friction, and the spring that <gazebo reference="JOINT"> gives.
+  void add_dynamics(Element& axis, const Element& from) {
+    const Element* dynamics = from.FirstChildElement("dynamics");
+    const auto spring = springs_.find(attribute(from, "name"));
+    if (dynamics == nullptr && spring == springs_.end()) return;
+    Element& out =
+        append(document_, axis, "dynamics", dynamics != nullptr ? *dynamics : *spring->second);
+    for (const char* key : {"damping", "friction"})
+      if (const char* value = dynamics != nullptr ? dynamics->Attribute(key) : nullptr)
+        append(document_, out, key, *dynamics, value);
+    if (spring == springs_.end()) return;
+    for (const auto& [key, name] : {std::pair{"springStiffness", "spring_stiffness"},
+                                    std::pair{"springReference", "spring_reference"}})
+      if (const Element* e = spring->second->FirstChildElement(key))
+        append(document_, out, name, *e,
+               e->Attribute("value") ? attribute(*e, "value") : text_of(*e));
+  }
+
+  /// Adds the element that SDF has had for it since 1.11.
+  void add_mimic(Element& axis, const Element& from) {
+    Element& out = append(document_, axis, "mimic", from);
+    out.SetAttribute("joint", attribute(from, "joint").c_str());
+    for (const char* key : {"multiplier", "offset"})
+      if (const char* value = from.Attribute(key)) append(document_, out, key, from, value);
+  }
+
+  /// Adds the joints of SDF that <gazebo> without a reference holds: they close loops.
+  void add_closing_joints(Element& model) {
+    for (const Element* e = robot_.FirstChildElement("gazebo"); e;
+         e = e->NextSiblingElement("gazebo"))
+      for (const Element* joint = e->FirstChildElement("joint");
+           joint != nullptr && e->Attribute("reference") == nullptr;
+           joint = joint->NextSiblingElement("joint")) {
+        Element& to = append(document_, model, "joint", *joint);
+        for (const char* key : {"name", "type"})
+          to.SetAttribute(key, attribute(*joint, key).c_str());
+        for (const char* key : {"parent", "child", "pose", "axis"})
+          if (const Element* part = joint->FirstChildElement(key)) Document::append_copy(to, *part);
+      }
   }
 
   /// Fixes the base to the world where the root is a link named world above a fixed joint.
@@ -421,6 +461,7 @@ class Converter {
   std::map<std::string, Element*> made_;             ///< links of SDF by name
   std::vector<const Element*> frames_;               ///< massless links
   std::map<std::string, const Element*> frictions_;  ///< <mu1> by the name of the link
+  std::map<std::string, const Element*> springs_;    ///< <gazebo> by the name of the joint
   std::string base_;                                 ///< name of the root link
 };
 

@@ -54,6 +54,20 @@ void require_new_name(const Element& at, const std::string& name, const char* ki
       faults.error(at, name, std::string("there is already a ") + kind + " of this name", remedy);
 }
 
+/// Reads goals of the score; those about the shape of the ground need a design.
+void read_goals(Element& world_element, scene::Scene& world, Faults& faults) {
+  Element* e = world_element.FirstChildElement("navvy:goals");
+  if (e == nullptr) return;
+  const std::size_t before = faults.error_count();
+  read_element(*e, world.goals, nullptr, faults);
+  if (faults.error_count() > before) return;
+  if (!world.goals.any())
+    faults.warning(*e, "", "sets no goal", "add one, such as <completion>0.95</completion>");
+  else if (world.goals.need_design() && !world.commanded_design().any())
+    faults.error(*e, "", "goals of the shape need a shape",
+                 "add a <navvy:design>, or a dig_area to a program");
+}
+
 /// Reads records. The code that writes maps knows formats and layers; it checks them with the line.
 void read_records(Element& world_element, scene::Scene& world, Faults& faults) {
   for (Element* e : children_of(world_element, {"navvy:record"})) {
@@ -303,6 +317,7 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   read_section(*element, "navvy:recording", world.recording, faults);
   if (Element* e = element->FirstChildElement("navvy:forbid"))
     world.forbidden = read_forbidden(*e, faults);
+  read_goals(*element, world, faults);
   read_records(*element, world, faults);
   read_cameras(*element, world, faults);
   for (Element* e : children_of(*element, {"light"})) read_light(*e, world.lights, faults);

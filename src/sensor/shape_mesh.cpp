@@ -77,7 +77,7 @@ TriangleMesh rectangle(const Vec3& size) {
 }
 
 TriangleMesh scaled_file(const scene::Geometry& shape) {
-  TriangleMesh out = geometry::read_mesh(shape.mesh_file);
+  TriangleMesh out = shape.made ? *shape.made : geometry::read_mesh(shape.mesh_file);
   for (Vec3& v : out.vertices) v = v.cwiseProduct(shape.scale);
   return out;
 }

@@ -79,12 +79,20 @@ scene::Joint joint_of(const Element& element) {
 
 }  // namespace
 
-bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& faults) {
+bool read_sdf_model(const Element& model, scene::Machine& machine, std::vector<Gearbox>& gearboxes,
+                    Faults& faults) {
   const std::size_t before = faults.error_count();
   ++faults.work.models;
   std::vector<std::string> parents, children;
   std::vector<const Element*> joints;
   for (const Element* e = model.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) {
+    if (attribute(*e, "type") == "gearbox") {
+      gearboxes.push_back({attribute(*e, "name"), link_of(model, child_text(*e, "parent")),
+                           link_of(model, child_text(*e, "child")),
+                           child_text(*e, "gearbox_reference_body"),
+                           number_in(e, "gearbox_ratio", 1)});
+      continue;
+    }
     joints.push_back(e);
     parents.push_back(link_of(model, child_text(*e, "parent")));
     children.push_back(link_of(model, child_text(*e, "child")));
@@ -107,11 +115,17 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
     for (std::size_t k = 0; k < joints.size(); ++k) {
       if (parents[k] != machine.links[i].name || children[k].empty() || children[k] == "world")
         continue;
-      if (machine.link_index(children[k]) >= 0) {
-        faults.error(*joints[k], children[k], "the joints form no tree");
-        return false;
-      }
       scene::Joint joint = joint_of(*joints[k]);
+      if (machine.link_index(children[k]) >= 0) {
+        scene::LoopJoint loop;
+        loop.name = joint.name;
+        loop.type = static_cast<scene::LoopJoint::Type>(joint.type);
+        loop.parent = static_cast<int>(i);
+        loop.child = machine.link_index(children[k]);
+        loop.axis = joint.axis;
+        machine.loops.push_back(loop);
+        continue;
+      }
       joint.parent = static_cast<int>(i);
       joint.child = static_cast<int>(machine.links.size());
       machine.joints.push_back(joint);
@@ -122,7 +136,7 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
     ++links;
   to_world = static_cast<std::size_t>(std::count(parents.begin(), parents.end(), "world"));
   if (machine.links.empty() || machine.links.size() != links ||
-      machine.joints.size() + to_world != joints.size())
+      machine.joints.size() + machine.loops.size() + to_world != joints.size())
     faults.error(model, "", "the joints form no tree");
   const std::string is_static = child_text(model, "static");
   machine.fixed_base = to_world > 0 || is_static == "true" || is_static == "1";

@@ -328,6 +328,155 @@ TEST_F(Import, RootNamedWorldHoldsTheRobot) {
   EXPECT_TRUE(got.machine->fixed_base);
 }
 
+TEST_F(Import, MimicAndSpringsOfARobotAreSimulated) {
+  const Read got = read_robot(
+      urdf_link("a") + urdf_link("b") + urdf_link("c") + urdf_link("d") +
+      urdf_joint("j", "continuous", "a", "b") +
+      urdf_joint("k", "continuous", "a", "c", "<mimic joint='j' multiplier='-2' offset='0.5'/>") +
+      urdf_joint("l", "continuous", "a", "d", "<dynamics damping='3'/>") +
+      "<gazebo reference='l'><springStiffness>70</springStiffness>"
+      "<springReference value='0.2'/></gazebo>");
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  EXPECT_EQ(got.messages.find("mimic"), std::string::npos) << got.messages;
+  const scene::Machine& m = *got.machine;
+  ASSERT_EQ(m.gears.size(), 1u);
+  EXPECT_EQ(m.joints.at(static_cast<std::size_t>(m.gears[0].follower)).name, "k");
+  EXPECT_EQ(m.joints.at(static_cast<std::size_t>(m.gears[0].leader)).name, "j");
+  EXPECT_EQ(m.gears[0].ratio, -2);
+  EXPECT_EQ(m.gears[0].offset, 0.5);
+  const auto joint = [&](const std::string& name) {
+    return m.joints.at(static_cast<std::size_t>(m.joint_index(name)));
+  };
+  // The follower starts where its leader puts it.
+  EXPECT_EQ(joint("k").initial, 0.5);
+  EXPECT_TRUE(joint("k").passive);
+  EXPECT_FALSE(joint("j").passive);
+  EXPECT_EQ(joint("l").stiffness, 70);
+  EXPECT_EQ(joint("l").rest, 0.2);
+  EXPECT_EQ(joint("l").damping, 3);
+  EXPECT_TRUE(joint("l").passive);
+}
+
+/// A four-bar above the ground in the plane x-z: its two fixed pivots are 1 m apart.
+std::string bars() {
+  return "<link name='a'><inertial><mass>9</mass></inertial></link>"
+         "<link name='b'><inertial><mass>1</mass></inertial></link>"
+         "<link name='c'><pose>0 0 0.5 0 0 0</pose><inertial><mass>1</mass></inertial></link>"
+         "<link name='d'><pose>1 0 0 0 0 0</pose><inertial><mass>1</mass></inertial></link>";
+}
+std::string bar_joint(const std::string& name, const std::string& parent, const std::string& child,
+                      const std::string& more = "", const std::string& inside = "") {
+  return "<joint name='" + name + "' type='revolute'>" + more + "<parent>" + parent +
+         "</parent><child>" + child + "</child><axis><xyz>0 -1 0</xyz>" + inside +
+         "</axis></joint>\n";
+}
+
+TEST_F(Import, JointIntoALinkThatIsMovedAlreadyClosesALoop) {
+  const std::string pose = "<pose>1 0 0 0 0 0</pose>";
+  const Read got = read_world(
+      model(bars() + bar_joint("motor", "a", "b", "", "<limit><effort>50</effort></limit>") +
+            bar_joint("pin", "b", "c") + bar_joint("swing", "a", "d") +
+            bar_joint("last", "d", "c", pose)));
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  const scene::Machine& m = got.world->machines.at(0).machine;
+  EXPECT_EQ(m.joints.size(), 3u);
+  ASSERT_EQ(m.loops.size(), 1u);
+  EXPECT_EQ(m.loops[0].name, "last");
+  EXPECT_EQ(m.links.at(static_cast<std::size_t>(m.loops[0].parent)).name, "d");
+  EXPECT_EQ(m.links.at(static_cast<std::size_t>(m.loops[0].child)).name, "c");
+  EXPECT_LT((m.loops[0].X_LpJ.translation() - Vec3(0, 0, 0.5)).norm(), 1e-12);
+  // A joint with a motor holds; the others of the loop are free.
+  for (const scene::Joint& joint : m.joints)
+    EXPECT_EQ(joint.passive, joint.name != "motor") << joint.name;
+}
+
+TEST_F(Import, RingHeldByTheWorldHasItsBaseThere) {
+  const Read got = read_world(model(
+      bars() + "<joint name='held' type='fixed'><parent>world</parent><child>a</child></joint>" +
+      bar_joint("one", "a", "b") + bar_joint("two", "b", "c") +
+      bar_joint("three", "c", "d", "<pose>0 0 0.5 0 0 0</pose>") +
+      bar_joint("four", "d", "a", "<pose>1 0 0 0 0 0</pose>")));
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  const scene::Machine& m = got.world->machines.at(0).machine;
+  EXPECT_TRUE(m.fixed_base);
+  EXPECT_EQ(m.links.at(0).name, "a");
+  ASSERT_EQ(m.loops.size(), 1u);
+  EXPECT_EQ(m.loops[0].name, "four");
+}
+
+TEST_F(Import, PassiveJointsOfALoopStartWhereItsMotorPutsThem) {
+  const std::string text =
+      "<sdf version='1.9' xmlns:navvy='navvy'>" +
+      model(bars() + bar_joint("motor", "a", "b", "", "<limit><effort>50</effort></limit>") +
+            bar_joint("pin", "b", "c") + bar_joint("swing", "a", "d") +
+            bar_joint("last", "d", "c", "<pose>1 0 0 0 0 0</pose>") +
+            "<navvy:joint name='motor'><initial_deg>@</initial_deg></navvy:joint>") +
+      "</sdf>";
+  const auto start = [&](const std::string& angle) {
+    std::string one = text;
+    return read("bars.sdf", one.replace(one.find('@'), 1, angle));
+  };
+  const Read got = start("20");
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  const scene::Machine& m = *got.machine;
+  const auto at = [&](const std::string& name) {
+    return m.joints.at(static_cast<std::size_t>(m.joint_index(name))).initial;
+  };
+  // A parallelogram: opposite bars stay parallel.
+  EXPECT_NEAR(at("motor"), 20 * kPi / 180, 1e-12);
+  EXPECT_NEAR(at("swing"), at("motor"), 1e-6);
+  EXPECT_NEAR(at("pin"), -at("motor"), 1e-6);
+}
+
+TEST_F(Import, LoopOfARobotIsClosedByAJointOfGazebo) {
+  const Read got = read_robot(
+      urdf_link("a") + urdf_link("b") + urdf_link("c") + urdf_link("d") +
+      urdf_joint("j", "continuous", "a", "b", "<axis xyz='0 1 0'/>") +
+      urdf_joint("k", "continuous", "b", "c", "<origin xyz='0 0 1'/><axis xyz='0 1 0'/>") +
+      urdf_joint("l", "continuous", "a", "d", "<origin xyz='1 0 0'/><axis xyz='0 1 0'/>") +
+      "<gazebo><joint name='m' type='revolute'><parent>d</parent><child>c</child>"
+      "<pose>1 0 0 0 0 0</pose><axis><xyz>0 1 0</xyz></axis></joint></gazebo>");
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  ASSERT_EQ(got.machine->loops.size(), 1u);
+  EXPECT_EQ(got.machine->loops[0].name, "m");
+  EXPECT_LT((got.machine->loops[0].X_LpJ.translation() - Vec3(0, 0, 1)).norm(), 1e-12);
+}
+
+TEST_F(Import, GearboxTurnsItsChildAgainstItsParent) {
+  const auto gearbox = [&](const std::string& axis2) {
+    return read_world(model(
+        bars() + bar_joint("j", "a", "b") + bar_joint("k", "a", "d") + bar_joint("l", "a", "c") +
+        "<joint name='g' type='gearbox'><parent>b</parent><child>d</child>"
+        "<gearbox_reference_body>a</gearbox_reference_body><gearbox_ratio>3</gearbox_ratio>"
+        "<axis><xyz>0 -1 0</xyz></axis><axis2><xyz>" +
+        axis2 + "</xyz></axis2></joint>"));
+  };
+  for (const double sign : {1.0, -1.0}) {
+    const Read got = gearbox(sign > 0 ? "0 -1 0" : "0 1 0");
+    ASSERT_EQ(got.errors, 0u) << got.messages;
+    const scene::Machine& m = got.world->machines.at(0).machine;
+    EXPECT_EQ(m.joints.size(), 3u);
+    ASSERT_EQ(m.gears.size(), 1u);
+    EXPECT_EQ(m.joints.at(static_cast<std::size_t>(m.gears[0].leader)).name, "j");
+    EXPECT_EQ(m.joints.at(static_cast<std::size_t>(m.gears[0].follower)).name, "k");
+    EXPECT_EQ(m.gears[0].ratio, -3 * sign);
+  }
+}
+
+TEST_F(Import, MimicOfSdfCountsFromItsReference) {
+  const Read got = read_world(
+      model(bars() + bar_joint("j", "a", "b") + bar_joint("l", "a", "c") +
+            bar_joint("k", "a", "d", "",
+                      "<mimic joint='j' axis='axis'><multiplier>2</multiplier><offset>1</offset>"
+                      "<reference>0.25</reference></mimic>")),
+      "1.11");
+  ASSERT_EQ(got.errors, 0u) << got.messages;
+  const scene::Machine& m = got.world->machines.at(0).machine;
+  ASSERT_EQ(m.gears.size(), 1u);
+  EXPECT_EQ(m.gears[0].ratio, 2);
+  EXPECT_EQ(m.gears[0].offset, 0.5);
+}
+
 TEST_F(Import, BadRobotsAreRefusedWithLineValueAndRemedy) {
   const auto expect = [&](const std::string& inner, const std::vector<std::string>& fragments) {
     const Read got = read_robot(inner);
@@ -343,7 +492,19 @@ TEST_F(Import, BadRobotsAreRefusedWithLineValueAndRemedy) {
          {"robot.urdf:1: error", "form a loop", "remove the joint"});
   expect(urdf_link("a") + urdf_link("b") + urdf_link("c") + urdf_joint("j", "fixed", "a", "b") +
              urdf_joint("k", "fixed", "a", "c") + urdf_joint("l", "fixed", "c", "b"),
-         {"robot.urdf:7: error", "'b'", "child of one joint only", "closing row"});
+         {"robot.urdf:7: error", "'b'", "child of one joint only", "as <gazebo><joint name=..."});
+  const auto mimic = [](const std::string& attributes) {
+    return urdf_link("a") + urdf_link("b") + urdf_link("c") +
+           urdf_joint("j", "continuous", "a", "b") +
+           urdf_joint("k", "continuous", "a", "c", "<mimic " + attributes + "/>");
+  };
+  expect(mimic("joint='k'"), {"robot.urdf:6: error", "'k'", "follow itself", "name another"});
+  expect(mimic("joint='jj'"), {"robot.urdf:6: error", "'jj'", "did you mean 'j'"});
+  expect(mimic("joint='j' multiplier='0'"), {"robot.urdf:6: error", "'0'", "type fixed"});
+  expect(mimic("joint='j' multiplier='NaN'"), {"robot.urdf:6: error", "'NaN'", "must be"});
+  expect(urdf_link("a") + urdf_link("b") + urdf_joint("j", "continuous", "a", "b") +
+             "<gazebo reference='j'><springStiffness>-3</springStiffness></gazebo>",
+         {"robot.urdf:5: error", "'-3'", "must not be negative", "give its magnitude"});
   expect(urdf_link("a") + urdf_joint("j", "fixed", "a", "aa"), {"robot.urdf:3: error", "'aa'"});
   expect("<xacro:macro name='x'/>", {"robot.urdf:2: error", "xacro that was not expanded"});
   expect(urdf_link("a",

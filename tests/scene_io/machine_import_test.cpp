@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "folder.h"
+#include "scene_io/crawler.h"
 #include "scene_io/loader.h"
 
 namespace navvy::scene_io {
@@ -60,14 +61,14 @@ std::string front() {
   return out;
 }
 
-class MachineImport : public testing::Test {
+class MachineImport : public ::testing::Test {
  protected:
   scene::Machine import(const std::string& robot, double density = 0) {
     std::ofstream(folder_ / "r.urdf") << "<robot name='r'>\n" << robot << "</robot>";
     report_.clear();
     std::filesystem::remove_all(folder_ / "out");
     for (const std::string& sentence :
-         import_machine(folder_ / "r.urdf", {folder_ / "out", density}))
+         import_machine(folder_ / "r.urdf", {folder_ / "out", density, ""}))
       report_ += sentence + "\n";
     return load_machine(folder_ / "out/model.sdf");
   }
@@ -99,7 +100,7 @@ TEST_F(MachineImport, CylindersOnJointsWithoutEndBecomeWheelsWithADrive) {
   EXPECT_NEAR(drive.tractive_force, 100, 1e-9);
   EXPECT_TRUE(says("the axis of joint 'spin_r' pointed to the right")) << report_;
   EXPECT_FALSE(says("to correct")) << report_;
-  EXPECT_TRUE(says("not recognised: arms, buckets")) << report_;
+  EXPECT_TRUE(says("not recognised: no three joints in a row")) << report_;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/IMPORT.md"));
 }
 
@@ -148,10 +149,151 @@ TEST_F(MachineImport, MeshesAreCopiedBesideTheMachine) {
 
 TEST_F(MachineImport, RefusesWorldsAndFoldersThatHoldAMachine) {
   std::ofstream(folder_ / "w.sdf") << "<sdf version='1.6'>\n<world name='w'/></sdf>";
-  EXPECT_THROW(import_machine(folder_ / "w.sdf", {folder_ / "o", 0}), InputError);
+  EXPECT_THROW(import_machine(folder_ / "w.sdf", {folder_ / "o", 0, ""}), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "o"));
   import(cart());
-  EXPECT_THROW(import_machine(folder_ / "r.urdf", {folder_ / "out", 0}), InputError);
+  EXPECT_THROW(import_machine(folder_ / "r.urdf", {folder_ / "out", 0, ""}), InputError);
+}
+
+/// Imports the excavator of crawler.h with the text of a file of masses; empty: without one.
+class CrawlerImport : public ::testing::Test {
+ protected:
+  void SetUp() override { scene_io::testing::write_crawler(folder_); }
+  scene::Machine import(const std::string& masses) {
+    std::ofstream(folder_ / "masses.csv") << masses;
+    report_.clear();
+    std::filesystem::remove_all(folder_ / "out");
+    for (const std::string& sentence :
+         import_machine(folder_ / "crawler.urdf",
+                        {folder_ / "out", 0, masses.empty() ? "" : folder_ / "masses.csv"}))
+      report_ += sentence + "\n";
+    return load_machine(folder_ / "out/model.sdf");
+  }
+  std::string refused(const std::string& masses) {
+    try {
+      import(masses);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  bool says(const std::string& text) const { return report_.find(text) != std::string::npos; }
+
+  test::Folder folder_;
+  std::string report_;
+};
+
+TEST_F(CrawlerImport, NamesTheRolesOfTheArmAndTurnsItsAxes) {
+  const scene::Machine machine = import(scene_io::testing::kCrawlerMasses);
+  EXPECT_EQ(machine.arm.swing, "turn");
+  EXPECT_EQ(machine.arm.boom, "j1");
+  EXPECT_EQ(machine.arm.stick, "j2");
+  EXPECT_EQ(machine.arm.bucket, "j3");
+  for (const char* name : {"j1", "j2", "j3"}) {
+    const scene::Joint& joint = machine.joints[static_cast<std::size_t>(machine.joint_index(name))];
+    const Pose X_MJ = machine.links[static_cast<std::size_t>(joint.child)].X_ML * joint.X_LcJ;
+    // A positive angle lifts the arm, in a frame with x forward and z up.
+    EXPECT_NEAR((X_MJ.linear() * joint.axis - Vec3(0, -1, 0)).norm(), 0, 1e-9) << name;
+    EXPECT_NEAR((X_MJ.linear() - Mat3::Identity()).norm(), 0, 1e-9) << name;
+  }
+  const scene::Joint& boom = machine.joints[static_cast<std::size_t>(machine.joint_index("j1"))];
+  EXPECT_NEAR(boom.lower, -0.85, 1e-12);
+  EXPECT_NEAR(boom.upper, 1.05, 1e-12);
+  // Zero was beyond the limits of the stick.
+  const scene::Joint& stick = machine.joints[static_cast<std::size_t>(machine.joint_index("j2"))];
+  EXPECT_NEAR(stick.initial, -0.6, 1e-9);
+  EXPECT_TRUE(says("the axis of joint 'j1' was turned with its limits")) << report_;
+  EXPECT_TRUE(says("joint 'j2' would start beyond its limits")) << report_;
+  EXPECT_FALSE(says("to correct")) << report_;
+}
+
+TEST_F(CrawlerImport, FindsShellAndEdgeInTheMeshOfTheBucket) {
+  const scene::Machine machine = import(scene_io::testing::kCrawlerMasses);
+  ASSERT_EQ(machine.buckets.size(), 1u) << report_;
+  const scene::Bucket& bucket = machine.buckets[0];
+  const scene::Link& link =
+      machine.links[static_cast<std::size_t>(machine.link_index(bucket.link))];
+  EXPECT_EQ(bucket.link, "scoop");
+  // In the axes of the machine the edge is 1.4 m ahead of the pin; the bar on it is 3 cm thick.
+  const Vec3 tip = link.X_ML.linear() * bucket.p_tip;
+  EXPECT_NEAR(tip.x(), 1.4, 0.03);
+  EXPECT_NEAR(tip.y(), 0, 1e-6);
+  EXPECT_NEAR(tip.z(), 0, 0.03);
+  EXPECT_NEAR(bucket.width, 1.05, 0.01);
+  const double made = geometry::heaped_capacity({1.05, 1.4, 0.03, 0.035}, 1);
+  // The section is that of the outer faces, so it holds more than the space between the plates.
+  EXPECT_GT(bucket.capacity, made);
+  EXPECT_LT(bucket.capacity, 1.25 * made);
+  // The mouth opens downwards, and the floor falls away from the edge.
+  EXPECT_LT((link.X_ML.linear() * bucket.opening).z(), -0.9);
+  const Vec3 cut = link.X_ML.linear() * bucket.cut_direction;
+  EXPECT_GT(cut.x(), 0.5);
+  EXPECT_LT(cut.z(), -0.5);
+  ASSERT_EQ(machine.shells.size(), 1u);
+  EXPECT_TRUE(link.collisions.empty());
+  EXPECT_TRUE(says("made: bucket 'scoop'")) << report_;
+}
+
+TEST_F(CrawlerImport, FillsInMassesWithCentreAndInertia) {
+  const scene::Machine machine = import(scene_io::testing::kCrawlerMasses);
+  EXPECT_NEAR(machine.total_mass(), 18000, 1e-6);
+  const scene::Link& house = machine.links[static_cast<std::size_t>(machine.link_index("house"))];
+  EXPECT_NEAR((house.p_LCom - Vec3(-0.6, 0, 0.8)).norm(), 0, 1e-9);
+  EXPECT_NEAR(house.inertia(2, 2), 7000 * (2.9 * 2.9 + 2.4 * 2.4) / 12, 1e-6);
+  EXPECT_TRUE(says("filled in: link 'house' weighs 7000 kg, not 0.03")) << report_;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/masses.csv"));
+}
+
+TEST_F(CrawlerImport, TorquesAndCylindersFitTheMasses) {
+  const scene::Machine machine = import(scene_io::testing::kCrawlerMasses);
+  // 1000 N m cannot hold a boom of a tonne.
+  EXPECT_TRUE(says("1000 N m of the file cannot hold the arm")) << report_;
+  const auto joint = [&](const char* name) {
+    return machine.joints[static_cast<std::size_t>(machine.joint_index(name))];
+  };
+  EXPECT_GT(joint("j1").effort, 2e5);
+  EXPECT_GT(joint("j3").effort, 5e4);
+  // The bucket turns by 172 deg, for which a cylinder needs a linkage.
+  ASSERT_EQ(machine.cylinders.size(), 2u) << report_;
+  EXPECT_EQ(machine.cylinders[0].joint, "j1");
+  EXPECT_EQ(machine.cylinders[1].joint, "j2");
+  EXPECT_TRUE(says("joint 'j3' keeps a motor")) << report_;
+}
+
+TEST_F(CrawlerImport, WithoutMassesListsWhatToFillIn) {
+  const scene::Machine machine = import("");
+  EXPECT_EQ(machine.buckets.size(), 1u) << report_;
+  EXPECT_TRUE(machine.cylinders.empty());
+  EXPECT_TRUE(says("left out: torques, speeds and cylinders")) << report_;
+  std::ifstream list(folder_ / "out/masses.csv");
+  const std::string text(std::istreambuf_iterator<char>(list), {});
+  EXPECT_NE(text.find("link,mass_kg\nbase_link,0.03\n"), std::string::npos) << text;
+  // The list is a file of masses itself.
+  EXPECT_EQ(refused(text), "");
+}
+
+TEST_F(CrawlerImport, NamesLinksThatOverlap) {
+  import(scene_io::testing::kCrawlerMasses);
+  // The boom starts in the house, but a joint connects them.
+  EXPECT_FALSE(says("overlapping: the hulls of links 'house' and 'arm_1'")) << report_;
+  std::ifstream urdf(folder_ / "crawler.urdf");
+  std::string text(std::istreambuf_iterator<char>(urdf), {});
+  // The house then reaches over the boom to the stick.
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"2.9 2.4 1.3", "8.9 2.4 1.3"},
+                                 std::pair<std::string, std::string>{"-0.6 0 0.8", "3.0 0 0.8"}})
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from))
+      text.replace(at, from.size(), to);
+  std::ofstream(folder_ / "crawler.urdf") << text;
+  import(scene_io::testing::kCrawlerMasses);
+  EXPECT_TRUE(says("overlapping: the hulls of links 'house' and 'arm_2'")) << report_;
+}
+
+TEST_F(CrawlerImport, RefusesFaultyFilesOfMasses) {
+  EXPECT_NE(refused("boom 3\n").find("masses.csv:1"), std::string::npos);
+  EXPECT_NE(refused("# x\nhous,3\n").find("did you mean 'house'"), std::string::npos);
+  EXPECT_NE(refused("house,nan\n").find("'nan'"), std::string::npos);
+  EXPECT_NE(refused("house,0\n").find("1e-6 to 1e+06"), std::string::npos);
+  EXPECT_NE(refused("house,7\nhouse,8\n").find("masses.csv:2"), std::string::npos);
 }
 
 }  // namespace

@@ -92,6 +92,12 @@ std::vector<Part> parts_of(const Geometry& geometry) {
     case Geometry::Kind::kSphere:
       return {{"<sphere" + attribute("radius", number(geometry.radius)) + "/>"}};
     case Geometry::Kind::kMesh:
+      if (geometry.made) {
+        const geometry::Box box = geometry::bounds(*geometry.made);
+        const Vec3 middle = 0.5 * (box.low + box.high), size = box.high - box.low;
+        return {{"<box" + attribute("size", numbers(size)) + "/>",
+                 make_pose(middle.x(), middle.y(), middle.z())}};
+      }
       return {{"<mesh" + attribute("filename", file_uri(geometry.mesh_file)) +
                attribute("scale", numbers(geometry.scale)) + "/>"}};
     case Geometry::Kind::kCapsule: {
@@ -188,6 +194,12 @@ std::string joint_element(const scene::Machine& machine, const std::vector<Machi
     name = joint.name;
     type = type_of(joint);
     if (type != "fixed" && type != "floating") about = motion(joint);
+    for (const scene::JointGear& gear : machine.gears)
+      if (gear.follower == frame.joint)
+        about += "<mimic" +
+                 attribute("joint", machine.joints.at(static_cast<std::size_t>(gear.leader)).name) +
+                 attribute("multiplier", number(gear.ratio)) +
+                 attribute("offset", number(gear.offset)) + "/>";
   } else {
     while (machine.joint_index(name) >= 0) name += "_";
   }

@@ -18,7 +18,9 @@ namespace navvy::formats::ros {
 /// limits of position, velocity and effort, damping and friction; values that are unlimited in
 /// Navvy become 1e9. A ball joint, which URDF lacks, is "floating". Meshes are referred to by
 /// `file://` and their absolute path. A capsule is written as a cylinder and two spheres, a cone as
-/// the cylinder around it, and a plane as a plate of 1 mm whose upper face is the plane.
+/// the cylinder around it, and a plane as a plate of 1 mm whose upper face is the plane. A mesh
+/// that was made from numbers, such as that of a bucket, is in no file and is written as the box
+/// around it.
 ///
 /// @throws Error if a link has no frame.
 std::string urdf(const scene::Machine& machine, const std::vector<MachineFrame>& frames);
