@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "control/arm_kinematics.h"
+#include "control/job_planner.h"
 #include "control/observation.h"
 #include "control/outcome.h"
 #include "control/path_planner.h"
@@ -55,6 +56,8 @@ struct OperatorContext {
   const scene::Machine machine;
   /// Path planner; null if no step of the program plans paths.
   std::unique_ptr<PathPlanner> planner;
+  /// Job planner; null if no step of the program plans a job.
+  std::unique_ptr<JobPlanner> jobs;
   /// Paths of all steps, in the order in which they were planned.
   std::vector<PlannedPath> paths;
   /// Kinematics of the arm; empty if no step of the program uses the arm.
@@ -66,6 +69,8 @@ struct OperatorContext {
   std::string label = "operator";
   /// Position of the running step in the program, counted from 1. Not saved in snapshots.
   std::int64_t step = 1;
+  /// Number of times that each step of the program has gone back; empty if no step does.
+  std::vector<std::int64_t> rounds;
   /// Simulated time of the current control step [s]. Not saved in snapshots.
   double now = 0;
 
@@ -124,6 +129,9 @@ class Activity {
 
   /// Returns kRunning while the step runs; afterwards kDone, or the state in which it failed.
   StepState state() const { return state_; }
+  /// Returns true if the step has ended and the steps before it are to run again
+  /// (ActivityStep::repeats).
+  bool goes_back() const { return back_; }
   /// Returns the explanation of the state as a sentence, to which the operator adds time and
   /// position. Empty if there is nothing to explain.
   const std::string& reason() const { return reason_; }
@@ -164,6 +172,8 @@ class Activity {
     reason_ = std::move(reason);
     return true;
   }
+  /// Makes the steps before this one run again when this control step ends the step.
+  void go_back() { back_ = true; }
   /// Sets the remark that is reported with a step that succeeds. A later remark replaces it.
   void remark(std::string text) { reason_ = std::move(text); }
 
@@ -180,6 +190,8 @@ class Activity {
   };
   // Current phase and the time spent in it.
   Clock clock_;
+  // True if steps are to run again; set in the last control step, so it is not saved.
+  bool back_ = false;
   // Event that has been reported but not yet taken; kNone if there is none.
   CycleEvent event_ = CycleEvent::kNone;
   // kRunning while the step runs; afterwards kDone, or the state in which it failed.

@@ -47,6 +47,11 @@ class ActivityStep : public scene::Step {
   virtual void check_machine(const scene::Machine&) const {}
   /// Returns true if the step plans paths. The operator then provides a path planner.
   virtual bool needs_planner() const { return false; }
+  /// Returns true if the step plans a job. The operator then provides a job planner.
+  virtual bool needs_job_planner() const { return false; }
+  /// Returns the number of steps before this one that run again when the step's activity goes back
+  /// (Activity::go_back); 0 for a step that never does.
+  virtual int repeats() const { return 0; }
   /// Returns the path to plan before the program begins. `from` is the pose that the machine will
   /// have when the step starts. Empty if the step needs no path.
   virtual std::optional<PathQuery> path_ahead(const PlanePose& /*from*/) const {

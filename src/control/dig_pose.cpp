@@ -39,4 +39,21 @@ bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, 
   return false;
 }
 
+bool can_dig_at(const ArmKinematics& arm, double reach, double height, double pitch) {
+  // The bucket may rotate away from its plunging angle, as it does when it digs.
+  BucketPose pose{reach, height, with_cut(arm, kPlunge) - pitch};
+  ArmAngles q;
+  return arm.inverse_nearest(pose, q);
+}
+
+TipReach tip_reach(const ArmKinematics& arm, double height, double pitch) {
+  TipReach out;
+  for (double r = 0.5; r < arm.longest() + 2; r += 0.02) {
+    if (!can_dig_at(arm, r, height, pitch)) continue;
+    if (out.most == 0) out.least = r;
+    out.most = r;
+  }
+  return out;
+}
+
 }  // namespace navvy::control

@@ -47,6 +47,19 @@ SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W);
 bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, double ground,
                double clearance, ArmAngles& q, double& possible);
 
+/// Smallest distance from the swing axis to a dig [m]: clear of wheels and undercarriage.
+inline constexpr double kNearestDig = 3.0;
+/// Distances from the swing axis between which the bucket's tip can dig [m]; both 0 if it cannot.
+struct TipReach {
+  double least = 0, most = 0;
+};
+/// Returns the distances at which the tip of `arm` can be at `height` [m] above the swing ring,
+/// digging or plunging. `pitch` as SwingPoint::pitch. Found by trial in steps of 2 cm.
+TipReach tip_reach(const ArmKinematics& arm, double height, double pitch);
+/// Returns true if the tip can be at `reach` [m] and `height` [m] in S, digging or plunging.
+/// `pitch` as SwingPoint::pitch.
+bool can_dig_at(const ArmKinematics& arm, double reach, double height, double pitch);
+
 /// Returns the angle of the line from pin to tip at which the cutting edge has the angle `cut`
 /// [rad].
 inline double with_cut(const ArmKinematics& arm, double cut) { return cut - arm.cut_angle(); }

@@ -14,7 +14,7 @@ namespace navvy::control {
 
 struct Operator::State {
   State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in,
-        const MakePathPlanner& planners);
+        const Planners& planners);
 
   // Activities refer to the steps and to the context: all three keep their addresses, as the state
   // does not move.
@@ -50,7 +50,7 @@ struct Operator::State {
 };
 
 Operator::State::State(const scene::Machine& machine, const scene::Program& program_in,
-                       const std::string& name_in, const MakePathPlanner& planners)
+                       const std::string& name_in, const Planners& planners)
     : program(program_in),
       name(name_in.empty() ? machine.name : name_in),
       place(machine),
@@ -61,13 +61,23 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
   const auto needs_arm = [](const ActivityStep* one) { return one->needs_arm(); };
   if (std::any_of(steps.begin(), steps.end(), needs_arm)) place.arm.emplace(place.machine);
   for (const ActivityStep* one : steps) {
+    if (one->needs_job_planner() && !place.jobs) {
+      if (!planners.jobs)
+        throw InputError(Fault{Fault::Severity::kError, machine.file, 0,
+                               name + "/navvy:program/" + one->element(), "",
+                               "nobody plans jobs here",
+                               "hand a job planner to the operator, or dig single trenches"});
+      place.jobs = planners.jobs(place.machine);
+    }
     if (!one->needs_planner() || place.planner) continue;
-    if (!planners)
+    if (!planners.paths)
       throw InputError(
           Fault{Fault::Severity::kError, machine.file, 0, name + "/navvy:program/" + one->element(),
                 "", "nobody plans paths here", "hand a planner to the operator, or use drive_to"});
-    place.planner = planners(place.machine);
+    place.planner = planners.paths(place.machine);
   }
+  const auto repeats = [](const ActivityStep* one) { return one->repeats() > 0; };
+  if (std::any_of(steps.begin(), steps.end(), repeats)) place.rounds.resize(steps.size());
   // Reported before anything moves, not when the step's turn comes.
   for (const ActivityStep* one : steps) one->check_machine(place.machine);
 }
@@ -113,9 +123,19 @@ StepReport Operator::State::report(StepState state, const std::string& reason,
 void Operator::State::finish(StepState state, const std::string& reason, const Observation& seen,
                              double time) {
   reports.push_back(report(state, reason, seen, time));
+  const bool back = active && active->goes_back();
   active.reset();
   // The step that fell short stays the present one: the program goes no further.
-  if (!fell_short(state)) ++step;
+  if (fell_short(state)) return;
+  if (back) {
+    // At most to the first step, also in a program that nobody checked.
+    ++place.rounds[static_cast<std::size_t>(step)];
+    step = std::max<std::int64_t>(0, step - present().repeats());
+    return;
+  }
+  // Rounds count anew when a repeat is reached again from before.
+  if (!place.rounds.empty()) place.rounds[static_cast<std::size_t>(step)] = 0;
+  ++step;
 }
 
 namespace {
@@ -195,7 +215,7 @@ void Operator::State::note(const Command& out) {
 }
 
 Operator::Operator(const scene::Machine& machine, const scene::Program& program, std::string name,
-                   const MakePathPlanner& planners)
+                   const Planners& planners)
     : state_(std::make_unique<State>(machine, program, name, planners)) {}
 Operator::~Operator() = default;
 Operator::Operator(Operator&&) noexcept = default;
@@ -232,7 +252,8 @@ Command Operator::update(const Observation& seen, double time, double dt) {
   s.place.now = time;
   if (!s.done()) {
     if (!s.active) {
-      if (s.step == 0) s.plan_ahead(seen);
+      // Once: steps that run again plan when their turn comes.
+      if (s.step == 0 && s.reports.empty()) s.plan_ahead(seen);
       s.make_activity();
       s.started = time;
       s.stood = seen.X_WB.translation();
@@ -275,8 +296,13 @@ void Operator::visit(Archive& a) {
     a("reports", s.reports);
     // One per completed step; one more for the step that fell short, or for an event after the last
     // step.
-    a.require(static_cast<std::int64_t>(s.reports.size()) == s.step + (s.failed() ? 1 : 0),
+    const std::int64_t over = s.step + (s.failed() ? 1 : 0);
+    // Steps that run again have a report for each round.
+    a.require(s.place.rounds.empty() ? static_cast<std::int64_t>(s.reports.size()) == over
+                                     : static_cast<std::int64_t>(s.reports.size()) >= over,
               "reports", "another number of them than steps that are over");
+    // Only programs with a repeat have any.
+    if (!s.place.rounds.empty()) a.fixed("rounds", s.place.rounds);
     // As many as the scene's machine has joints.
     a.fixed("commanded", s.commanded);
     a("steer", s.steer);

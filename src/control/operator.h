@@ -9,7 +9,7 @@
 
 #include "control/observation.h"
 #include "control/outcome.h"
-#include "control/path_planner.h"
+#include "control/planners.h"
 #include "control/reach.h"
 #include "core/archive.h"
 #include "scene/machine.h"
@@ -32,7 +32,7 @@ class Operator {
   /// needed only if a step plans paths. @throws InputError if the machine lacks a part that the
   /// program needs, or if a step plans paths and `planners` is empty.
   Operator(const scene::Machine& machine, const scene::Program& program, std::string name = "",
-           const MakePathPlanner& planners = {});
+           const Planners& planners = {});
   ~Operator();
   Operator(Operator&&) noexcept;
 

@@ -31,7 +31,7 @@ std::string held_text(const scene::Joint& joint, const vehicle::JointState& stat
 
 ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& program,
                        const Pose& X_WB_at_start, const SurfaceView& surface_in, std::string file,
-                       const std::string& name, const MakePathPlanner& planners)
+                       const std::string& name, const Planners& planners)
     : machine(machine_in),
       surface(surface_in),
       X_WB(X_WB_at_start),
@@ -39,9 +39,14 @@ ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& p
       file_(std::move(file)),
       name_(name.empty() ? machine_in.name : name) {
   const auto asks = [](const scene::ProgramStep& step) { return step_of(step).needs_planner(); };
+  const auto plans = [](const scene::ProgramStep& step) {
+    return step_of(step).needs_job_planner();
+  };
+  if (planners.jobs && std::any_of(program.steps.begin(), program.steps.end(), plans))
+    jobs = planners.jobs(machine);
   // A planner looks at the whole site, so it is made only if a step asks for it.
-  if (!planners || std::none_of(program.steps.begin(), program.steps.end(), asks)) return;
-  std::unique_ptr<PathPlanner> made = planners(machine);
+  if (!planners.paths || std::none_of(program.steps.begin(), program.steps.end(), asks)) return;
+  std::unique_ptr<PathPlanner> made = planners.paths(machine);
   made->look(surface);
   planner = std::move(made);
 }
@@ -60,6 +65,11 @@ std::vector<Fault> ReachCheck::run() {
 void ReachCheck::fault(const std::string& element, const std::string& value,
                        const std::string& rule, const std::string& remedy) {
   add(Fault::Severity::kError, element, value, rule, remedy);
+}
+
+void ReachCheck::note(const std::string& text) {
+  notes_.push_back("'" + name_ + "', step " + std::to_string(index_ + 1) + " (" +
+                   program_.steps[index_]->element() + "): " + text);
 }
 
 void ReachCheck::warn(const std::string& element, const std::string& value, const std::string& rule,
@@ -97,8 +107,11 @@ void ReachCheck::require_swing(const ArmKinematics& arm, const char* element, do
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program,
                                const Pose& X_WB, const SurfaceView& surface,
                                const std::string& file, const std::string& name,
-                               const MakePathPlanner& planners) {
-  return ReachCheck(machine, program, X_WB, surface, file, name, planners).run();
+                               const Planners& planners, std::vector<std::string>* notes) {
+  ReachCheck check(machine, program, X_WB, surface, file, name, planners);
+  std::vector<Fault> faults = check.run();
+  if (notes != nullptr) notes->insert(notes->end(), check.notes().begin(), check.notes().end());
+  return faults;
 }
 
 std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "control/arm_kinematics.h"
-#include "control/path_planner.h"
+#include "control/planners.h"
 #include "control/surface.h"
 #include "core/error.h"
 #include "core/math.h"
@@ -28,7 +28,7 @@ class ReachCheck {
   /// outlive this object. `planners` makes the path planner if a step plans paths.
   ReachCheck(const scene::Machine& machine_in, const scene::Program& program,
              const Pose& X_WB_at_start, const SurfaceView& surface_in, std::string file,
-             const std::string& name, const MakePathPlanner& planners);
+             const std::string& name, const Planners& planners);
 
   /// Machine that runs the program.
   const scene::Machine& machine;
@@ -37,6 +37,8 @@ class ReachCheck {
   /// Path planner with an up-to-date map of the surface. Null if no step plans paths or no planner
   /// is available.
   std::unique_ptr<const PathPlanner> planner;
+  /// Job planner; null if no step plans jobs or no planner is available.
+  std::unique_ptr<const JobPlanner> jobs;
   /// Predicted pose of the base link in W at the beginning of the step being checked.
   Pose X_WB;
 
@@ -53,6 +55,12 @@ class ReachCheck {
   /// program may still change.
   void warn(const std::string& element, const std::string& value, const std::string& rule,
             const std::string& remedy);
+  /// Adds a line about the step being checked that is no fault, such as a row of its plan.
+  void note(const std::string& text);
+  /// Returns the lines added by `note`.
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// Returns the number of steps before the one being checked.
+  std::size_t steps_before() const { return index_; }
   /// Returns true if a step before the one being checked changes the ground.
   bool after_digging() const;
   /// Adds an error about `element` if the swing angle `swing` [rad] is outside the limits of the
@@ -73,6 +81,8 @@ class ReachCheck {
   std::size_t index_ = 0;
   // Errors and warnings found so far.
   std::vector<Fault> faults_;
+  // Lines that are no faults.
+  std::vector<std::string> notes_;
 };
 
 /// Returns the value with two decimals, followed by a space and the unit.
@@ -93,11 +103,13 @@ std::string held_text(const scene::Joint& joint, const vehicle::JointState& stat
 /// `X_WB` is the pose of the base link in W at the start, and `surface` the ground that the targets
 /// of digs and drives refer to. Messages contain `file` (the scene file) and `name` (the machine's
 /// name in the scene; if empty, the model's name). `planners` makes the path planner if a step
-/// plans paths.
+/// plans paths. Lines about plans, such as the stations of a job, are appended to `notes`, which
+/// may be null.
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program,
                                const Pose& X_WB, const SurfaceView& surface,
                                const std::string& file, const std::string& name = "",
-                               const MakePathPlanner& planners = {});
+                               const Planners& planners = {},
+                               std::vector<std::string>* notes = nullptr);
 
 /// Returns the predicted poses of the base link in W: `X_WB` at the start, followed by the pose
 /// after each step of the program that moves the machine.

@@ -2,9 +2,11 @@
 #include "control/step_kinds.h"
 
 #include "control/activities/dig/dig.h"
+#include "control/activities/dig/dig_area.h"
 #include "control/activities/drive_to.h"
 #include "control/activities/dump.h"
 #include "control/activities/go_to.h"
+#include "control/activities/repeat.h"
 #include "control/activities/swing.h"
 #include "control/activities/tip.h"
 #include "control/activities/trajectory.h"
@@ -20,7 +22,7 @@ const scene::StepKinds& step_kinds() {
       scene::step_kind<DriveTo>(), scene::step_kind<Dig>(),        scene::step_kind<Swing>(),
       scene::step_kind<Dump>(),    scene::step_kind<Wait>(),       scene::step_kind<Tip>(),
       scene::step_kind<WaitFor>(), scene::step_kind<Trajectory>(), scene::step_kind<GoTo>(),
-      scene::step_kind<Unhitch>(),
+      scene::step_kind<Unhitch>(), scene::step_kind<DigArea>(),    scene::step_kind<Repeat>(),
   };
   return kinds;
 }

@@ -305,13 +305,19 @@ void add_area(const scene::DesignArea& area, const std::string& file, const Terr
 }
 
 // Later areas lie over earlier ones, in the order of the file.
-DesignSurface of_areas(const scene::Scene& scene, const Terrain& site) {
+DesignSurface of_areas(const std::vector<scene::DesignArea>& areas, const std::string& file,
+                       const Terrain& site) {
   DesignSurface out;
-  for (const scene::DesignArea& area : scene.design.areas) add_area(area, scene.file, site, out);
+  for (const scene::DesignArea& area : areas) add_area(area, file, site, out);
   return out;
 }
 
 }  // namespace
+
+DesignSurface design_of_area(const scene::DesignArea& area, const Terrain& site,
+                             const std::string& file) {
+  return of_areas({area}, file, site);
+}
 
 std::vector<float> DesignSurface::over(int nx, int ny) const {
   std::vector<float> out(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), kNone);
@@ -323,10 +329,10 @@ std::vector<float> DesignSurface::over(int nx, int ny) const {
 }
 
 std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrain& site) {
-  const scene::Design& design = scene.design;
+  const scene::Design design = scene.commanded_design();
   if (!design.any()) return std::nullopt;
   if (design.tin) return of_tin(*design.tin, site);
-  if (design.file.empty()) return of_areas(scene, site);
+  if (design.file.empty()) return of_areas(design.areas, scene.file, site);
 #ifdef NAVVY_WITH_GDAL
   return import_design(design, site);
 #else

@@ -31,8 +31,9 @@ struct DesignSurface {
   std::vector<float> over(int nx, int ny) const;
 };
 
-/// Computes the design surface of `scene` at the columns of `site`. Returns no value for a scene
-/// without a design. Uses the position, the georeference and the initial heights of `site`.
+/// Computes the commanded design surface of `scene` (scene::Scene::commanded_design) at the columns
+/// of `site`. Returns no value for a scene without one. Uses the position, the georeference and the
+/// initial heights of `site`.
 ///
 /// A TIN (triangulated surface) is sampled at the column centres, after conversion of its unit of
 /// length. A raster is interpolated bilinearly and extended by its outermost cells. The side slopes
@@ -44,6 +45,11 @@ struct DesignSurface {
 /// @throws InputError naming file or line, for a file that cannot be read, a CRS other than that of
 /// the site, a surface that covers no column, or an area that does not begin on the site.
 std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrain& site);
+
+/// Returns the surface of one pit or pad on the columns of `site`. Messages name `file` and the
+/// line of the area. @throws InputError as `make_design`.
+DesignSurface design_of_area(const scene::DesignArea& area, const Terrain& site,
+                             const std::string& file);
 
 /// Differences between the ground and its design surface, over all columns that have a design
 /// height. Volumes are those of the soil in its current density state.

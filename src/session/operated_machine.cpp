@@ -42,7 +42,7 @@ heightfield::TerrainView SurfaceAroundMachine::mapped() const {
 }
 
 OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
-                                 const Programs& programs, const control::MakePathPlanner& planners)
+                                 const Programs& programs, const control::Planners& planners)
     : world_(world),
       machine_(world.machines().at(machine)),
       op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(),
@@ -143,6 +143,7 @@ void OperatedMachine::note_cycle(std::vector<Cycle>& cycles) {
     open_ = Cycle{};
     open_->machine = index();
     open_->start = world_.time();
+    open_->place = machine_.link(0).pose().translation().head<2>();
   }
   if (!open_ || !bucket_) return;
   // A cylinder is loaded by the low-passed force, not by impacts of single particles.

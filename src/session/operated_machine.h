@@ -73,7 +73,7 @@ class OperatedMachine {
   /// `programs` are shared by all operators; they and `world` must outlive this object. `planners`
   /// makes the path planner if a step of the program plans paths.
   OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
-                  const Programs& programs, const control::MakePathPlanner& planners);
+                  const Programs& programs, const control::Planners& planners);
 
   /// Returns the index of the machine in the scene.
   int index() const { return machine_.index(); }

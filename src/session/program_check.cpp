@@ -132,8 +132,8 @@ std::vector<Fault> check_receivers(const scene::Scene& world, const scene::Machi
 }  // namespace
 
 std::vector<Fault> check_programs(const scene::Scene& world, const control::SurfaceView& surface,
-                                  const std::vector<Pose>& X_WB,
-                                  const control::MakePathPlanner& planners) {
+                                  const std::vector<Pose>& X_WB, const control::Planners& planners,
+                                  std::vector<std::string>* notes) {
   std::vector<Fault> faults;
   // Errors come first, warnings follow.
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
@@ -142,7 +142,7 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
         surface, std::make_shared<const std::vector<heightfield::OccupiedArea>>(
                      sim::occupied_areas(world, X_WB, staying_bodies(world, m))));
     for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), around,
-                                             world.file, placed.name, planners))
+                                             world.file, placed.name, planners, notes))
       faults.push_back(std::move(fault));
     for (Fault& fault : check_receivers(world, placed)) faults.push_back(std::move(fault));
   }
@@ -153,14 +153,14 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
 }
 
 /// Makes the ground as a run does. Before a run there is no loose soil, so columns are enough.
-std::vector<Fault> check_programs(const scene::Scene& world,
-                                  const control::MakePathPlanner& planners) {
+std::vector<Fault> check_programs(const scene::Scene& world, const control::Planners& planners,
+                                  std::vector<std::string>* notes) {
   try {
     const heightfield::Ground ground = heightfield::make_ground(world, nullptr);
     sim::check_active(world, ground);
     heightfield::make_design(world, ground);
     return check_programs(world, control::GroundSurfaceView(ground),
-                          sim::starting_poses(world, ground), planners);
+                          sim::starting_poses(world, ground), planners, notes);
   } catch (const InputError& error) {
     // A ground that cannot be laid is itself the answer.
     return error.faults();

@@ -3,9 +3,10 @@
 // and so does `navvy check`.
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "control/path_planner.h"
+#include "control/planners.h"
 #include "control/surface.h"
 #include "core/error.h"
 #include "core/math.h"
@@ -19,15 +20,17 @@ namespace navvy::session {
 ///
 /// `X_WB` contains the pose of each machine's base link in W, in the order of the machines in the
 /// scene. `surface` gives the ground heights in W [m] to which digs and drives refer. `planners`
-/// makes path planners for steps that plan paths.
+/// makes the planners of steps that plan. Lines about plans, such as the stations of a job, are
+/// appended to `notes`, which may be null.
 std::vector<Fault> check_programs(const scene::Scene& world, const control::SurfaceView& surface,
                                   const std::vector<Pose>& X_WB,
-                                  const control::MakePathPlanner& planners = {});
+                                  const control::Planners& planners = {},
+                                  std::vector<std::string>* notes = nullptr);
 
 /// Checks the programs of a scene without running it: generates the initial ground or reads it from
 /// the scene's map, places the machines on it, and calls the function above. Errors found while
 /// making the ground are returned as well. Needs no OpenCL device.
-std::vector<Fault> check_programs(const scene::Scene& world,
-                                  const control::MakePathPlanner& planners = {});
+std::vector<Fault> check_programs(const scene::Scene& world, const control::Planners& planners = {},
+                                  std::vector<std::string>* notes = nullptr);
 
 }  // namespace navvy::session

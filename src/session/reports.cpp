@@ -18,6 +18,8 @@ void Cycle::visit(Archive& a) {
   a("force_peak", force_peak);
   a("draft_peak", draft_peak);
   a("uplift_peak", uplift_peak);
+  a.unhashed("follows from the states before; states of equal runs keep their hashes",
+             [&] { a("place", place); });
 }
 
 void BedTip::visit(Archive& a) {

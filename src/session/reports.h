@@ -10,6 +10,7 @@
 #include "control/outcome.h"
 #include "control/path.h"
 #include "core/archive.h"
+#include "core/math.h"
 
 namespace navvy::session {
 
@@ -31,6 +32,9 @@ struct Cycle {
   /// Maximum upward soil force after the start of the curl (BucketLoad::uplift) [N]. It occurs when
   /// the heel or the floor of the bucket presses on the ground.
   double uplift_peak = 0;
+  /// Place (x, y) of the machine's base link in W at the start [m]. It is reported and decides
+  /// nothing.
+  Vec2 place = Vec2::Zero();
 
   /// Saves or loads all fields.
   void visit(Archive& a);

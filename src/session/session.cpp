@@ -39,7 +39,8 @@ struct Session::State {
         device_name(device.info().name),
         // The number and order of tools never change.
         tools(world.machines().tools()),
-        forbidden(world) {
+        forbidden(world),
+        travel(world) {
     for (int m = 0; m < world.machines().count(); ++m)
       for (const scene::Bucket& bucket : world.machines().at(m).description().buckets)
         buckets.emplace_back(world.machines().at(m), bucket);
@@ -72,6 +73,7 @@ struct Session::State {
   CollisionWatch collisions;
   OverlapWatch overlaps;
   ForbiddenWatch forbidden;
+  TravelLog travel;
   /// Simulated time since every program ended [s].
   double idle = 0;
   /// Wall time that operators took [s].
@@ -186,8 +188,9 @@ void Session::State::take_over(int machine) {
 void Session::State::visit(Archive& a) {
   // Version 3 added machines taken by inputs; 4 operators; 5 their reports; 6 peaks of draft and
   // uplift; 7 the watch over machines that no program drives; 8 loads of tip and dump, collisions;
-  // 9 overlaps, forbidden events, places of machines that no program drives.
-  a.section("session", 9, [&] {
+  // 9 overlaps, forbidden events, places of machines that no program drives; 10 places of cycles,
+  // distances driven.
+  a.section("session", 10, [&] {
     a("cycles", cycles);
     a("tips", tips);
     // Reports name machines by their index.
@@ -204,6 +207,8 @@ void Session::State::visit(Archive& a) {
       a("overlaps", overlaps);
       a("forbidden", forbidden);
     });
+    a.unhashed("follows from the states before; states of equal runs keep their hashes",
+               [&] { a("travel", travel); });
     const auto both_known = [&](const auto& one) {
       return one.machine >= 0 && one.machine < one.other_machine &&
              one.other_machine < world.machines().count() && has_link(one.machine, one.link) &&
@@ -226,7 +231,7 @@ void Session::State::visit(Archive& a) {
 }
 
 Session::Session(scene::Scene description, device::Device& device,
-                 const control::MakePathPlanner& planners,
+                 const control::Planners& planners,
                  const vehicle::PhysicsEngineFactory& make_engine)
     : state_(std::make_unique<State>(std::move(description), device, make_engine)) {
   State& s = *state_;
@@ -286,6 +291,7 @@ void Session::step() {
   // The world steps with the commands given above. Forces are those of this step.
   s.world.step();
   s.note_forces();
+  s.travel.look(s.world);
   const std::vector<sim::MachineContact> contacts = s.world.machines().contacts();
   s.collisions.look(s.world, contacts);
   s.overlaps.look(s.world, contacts);
@@ -416,6 +422,7 @@ std::vector<ProgramReport> Session::programs() const {
 }
 
 const std::vector<Cycle>& Session::cycles() const { return state_->cycles; }
+const TravelLog& Session::travel() const { return state_->travel; }
 const std::vector<BedTip>& Session::tips() const { return state_->tips; }
 const CollisionWatch& Session::collisions() const { return state_->collisions; }
 const OverlapWatch& Session::overlaps() const { return state_->overlaps; }

@@ -9,12 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "control/path_planner.h"
+#include "control/planners.h"
 #include "core/archive.h"
 #include "session/collision.h"
 #include "session/forbidden_watch.h"
 #include "session/overlap_watch.h"
 #include "session/reports.h"
+#include "session/travel.h"
 #include "sim/world.h"
 
 namespace navvy::heightfield {
@@ -38,8 +39,7 @@ class Session {
   /// engine of the world, as for sim::World; if it is empty, the default engine is used. @throws
   /// InputError with all targets that are out of reach and all machines that overlap or start in
   /// the ground; device::DeviceError if the OpenCL device fails.
-  Session(scene::Scene description, device::Device& device,
-          const control::MakePathPlanner& planners = {},
+  Session(scene::Scene description, device::Device& device, const control::Planners& planners = {},
           const vehicle::PhysicsEngineFactory& make_engine = {});
   ~Session();
   Session(const Session&) = delete;
@@ -89,8 +89,8 @@ class Session {
 
   /// Returns the name of the OpenCL device, as reported by its driver.
   const std::string& device_name() const;
-  /// Returns the design surface of the scene, resampled to the columns of the site; null if the
-  /// scene has none.
+  /// Returns the design surface that programs work to (scene::Scene::commanded_design), resampled
+  /// to the columns of the site; null if there is none.
   const heightfield::DesignSurface* design() const;
   /// Returns what the machine with the index `machine` is doing: the phase of its operator (see
   /// control::Operator::phase), "idle" if it has no program, "inputs" after inputs have taken over,
@@ -107,6 +107,8 @@ class Session {
   const CollisionWatch& collisions() const;
   /// Returns the overlaps of bodies so far that lasted, with their number.
   const OverlapWatch& overlaps() const;
+  /// Returns the distances that machines have driven.
+  const TravelLog& travel() const;
   /// Returns all completed bed tips, in the order in which they ended.
   const std::vector<BedTip>& tips() const;
   /// Returns the force statistics over all steps so far.

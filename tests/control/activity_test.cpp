@@ -16,6 +16,7 @@
 #include "control/activities/drive_to.h"
 #include "control/activities/dump.h"
 #include "control/activities/go_to.h"
+#include "control/activities/repeat.h"
 #include "control/activities/swing.h"
 #include "control/activities/tip.h"
 #include "control/activities/trajectory.h"
@@ -145,16 +146,30 @@ GoTo there() {
   return step;
 }
 
+Repeat twice() {
+  Repeat step;
+  step.times = 2;
+  return step;
+}
+
+/// Repeats two steps once.
+Repeat twice_two() {
+  Repeat step = twice();
+  step.steps = 2;
+  return step;
+}
+
 std::vector<scene::ProgramStep> one_of_each() {
-  return {ahead(), Swing(0.8), Dump(0.5),     Wait(1), Tip(-1, 0.5), WaitFor("other", 0, 2),
-          path(),  there(),    Unhitch("tow")};
+  return {ahead(), Swing(0.8), Dump(0.5),      Wait(1), Tip(-1, 0.5), WaitFor("other", 0, 2),
+          path(),  there(),    Unhitch("tow"), twice()};
 }
 
 TEST(Activity, EveryKindOfStepIsTestedHere) {
   std::set<std::string> tried, known;
   for (const scene::ProgramStep& step : one_of_each()) tried.insert(step->element());
   for (const scene::StepKind& kind : step_kinds()) known.insert(kind.element);
-  known.erase("dig");  // wants soil: dig_test.cpp
+  known.erase("dig");       // wants soil: dig_test.cpp
+  known.erase("dig_area");  // wants soil and a job planner: tests/earthwork
   EXPECT_EQ(tried, known);
 }
 
@@ -307,6 +322,29 @@ TEST(Operator, RefusesASnapshotOfAnotherStep) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("'swing'"), std::string::npos) << error.what();
   }
+}
+
+TEST(Operator, RepeatsStepsUntilTheRoundsAreOverAndResumesInARound) {
+  const scene::Machine machine = able_machine();
+  const scene::Program program{{Wait(0.05), Wait(0.02), twice_two(), Wait(0.05)}, {}};
+  Observation seen;
+  seen.joints.resize(machine.joints.size());
+  Operator whole(machine, program), resumed(machine, program);
+  double time = 0;
+  // In the second round.
+  while (whole.reports().size() < 4) whole.update(seen, time += kStep, kStep);
+  EXPECT_EQ(whole.progress().done, 1);
+  load_saved(saved(whole), resumed);
+  while (!whole.ended()) {
+    whole.update(seen, time += kStep, kStep);
+    resumed.update(seen, time, kStep);
+  }
+  std::vector<std::string> kinds;
+  for (const StepReport& one : whole.reports()) kinds.push_back(one.element);
+  EXPECT_EQ(kinds,
+            (std::vector<std::string>{"wait", "wait", "repeat", "wait", "wait", "repeat", "wait"}));
+  EXPECT_TRUE(whole.done());
+  EXPECT_EQ(hash_of(resumed).digest(), hash_of(whole).digest());
 }
 
 TEST(ArmMove, TakesTheTimeOfItsSlowestAxisAndRestsAtBothEnds) {

@@ -59,10 +59,11 @@ heightfield::Ground flat_ground(double cell) {
   return heightfield::Ground(std::move(setup));
 }
 
-DigRig::DigRig(scene::Machine machine, scene::Program program, const Pose& X_WM)
+DigRig::DigRig(scene::Machine machine, scene::Program program, const Pose& X_WM,
+               const Planners& planners)
     : ground(flat_ground()),
       engine(vehicle::make_kinematic_engine()),
-      op(machine, program),
+      op(machine, program, "", planners),
       machine_(std::move(machine)),
       target_(machine_.joints.size()) {
   engine->add_machine(machine_, X_WM);
@@ -81,6 +82,7 @@ Observation DigRig::look() const {
   if (time < settled_at) seen.X_WB.linear() = Mat3::Identity();
   seen.v_WB = engine->link(0, 0).v_WL;
   seen.ground = &ground;
+  if (fills_bed) seen.load_of = [this](const std::string&) { return poured; };
   seen.payload = payload_ + (op.phase() == "penetrate" || op.phase() == "drag" ? in_mouth : 0);
   return seen;
 }
@@ -202,6 +204,8 @@ void DigRig::pour(const Pose& X_WB) {
   if (payload_ <= 0 || op.phase() != "dump" || tip_angle(X_WB) < -radians(110)) return;
   const double mass = std::min(payload_, kPourRate * kStep);
   payload_ -= mass;
+  poured += mass;
+  if (fills_bed) return;
   const Vec3 tip = X_WB * machine_.buckets[0].p_tip;
   drop(tip.head<2>(), 0.7, mass);
 }

@@ -24,7 +24,8 @@ heightfield::Ground flat_ground(double cell = 0.1);
 
 class DigRig {
  public:
-  DigRig(scene::Machine machine, scene::Program program, const Pose& X_WM);
+  DigRig(scene::Machine machine, scene::Program program, const Pose& X_WM,
+         const Planners& planners = {});
 
   /// Advances by one control step of 5 ms.
   void step();
@@ -51,6 +52,9 @@ class DigRig {
   bool hit_rock = false;
   /// Soil so strong that a thicker slice blocks the bucket as rock does [m].
   double thickest_slice = 100;
+  /// True: what is poured out of the bucket fills the bed of a truck, whose load the operator sees.
+  bool fills_bed = false;
+  double poured = 0;  ///< [kg]
   /// Soil in the mouth of the bucket while it is lowered, counted as load [kg].
   double in_mouth = 0;
   /// Largest angle of the line from pin to tip at the start of a curl [rad].

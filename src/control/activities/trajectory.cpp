@@ -104,6 +104,13 @@ void check_column(const scene::StepSource& source, const Trajectory::Column& col
   if (turns != column.turns)
     return fault(column.joint, turns ? "a revolute joint needs <positions_deg>"
                                      : "a prismatic joint needs <positions_m>");
+  for (const scene::JointGear& gear : machine->gears)
+    if (gear.follower == index)
+      return fault(column.joint,
+                   "this joint follows joint '" +
+                       machine->joints[static_cast<std::size_t>(gear.leader)].name +
+                       "' by a fixed ratio",
+                   "move that joint");
   if (!joint.has_limits) return;
   const double f = turns ? 1 / kDegree : 1;
   // One position is enough to find the mistake; the slack covers the rounding of degrees.

@@ -18,6 +18,9 @@ void Dig::check(const scene::StepSource& source) {
   source.on_site("from_m", from);
   source.on_site("to_m", to);
   source.on_site("dump_at_m", dump_at);
+  if (has_load && !has_into)
+    source.error("load_kg", source.written("load_kg"), "needs the machine that is loaded",
+                 "name it in <into>");
   // Without a length the trench has no direction.
   if (source.has("from_m") && source.has("to_m") && (to - from).norm() < 0.1)
     source.error("to_m", source.written("to_m"), "must be at least 0.1 m from from_m");

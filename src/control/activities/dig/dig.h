@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "control/activity_step.h"
 
@@ -14,8 +15,9 @@ namespace navvy::control {
 ///
 /// Digging ends when no soil worth a scoop is left, after three empty scoops in a row, or after the
 /// maximum number of cycles. The step is done if at most 15 % of the commanded volume is left, or
-/// if it made the number of cycles that the scene sets; otherwise it fails. Its measurements
-/// include the volume left and the depth reached.
+/// if it made the number of cycles that the scene sets; otherwise it fails. With a load for the bed
+/// of another machine it is done when the bed holds it, and fails if the trench ends before. Its
+/// measurements include the volume left and the depth reached.
 struct Dig final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "dig";
@@ -36,6 +38,9 @@ struct Dig final : ActivityStep {
   std::string into;
   /// True if the scene file gives `into`.
   bool has_into = false;
+  /// Mass of soil in the beds of `into` at which the step is done [kg]; used if `has_load`.
+  double load = 0;
+  bool has_load = false;
   /// Maximum depth of soil that one pass removes [m]. Within it, the plan chooses the slices so
   /// that buckets come out full.
   double pass_depth = 0.5;
@@ -46,6 +51,15 @@ struct Dig final : ActivityStep {
   /// Number of cycles after which the step is done. If empty, digging goes on until the trench is
   /// done, for 60 cycles at most.
   std::optional<int> max_cycles;
+  /// Heights of the floor in W at equal distances from the end nearer to the machine to the other
+  /// one [m]; `depth` is then the largest depth below the present ground. Empty: a level trench.
+  /// Not an element of scenes: a job sets it for its cuts.
+  std::vector<double> floor;
+  /// True for a cut of a job: soil that is left is no failure, and the floor is not cleaned up. Not
+  /// an element of scenes.
+  bool is_cut = false;
+  /// Height in W above which the bucket swings [m]; used if `is_cut`.
+  double rim = 0;
 
   /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {
@@ -57,6 +71,9 @@ struct Dig final : ActivityStep {
     f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
     f("into", into, "Machine in whose bed the soil must land; the step fails when it does not.",
       scene::given(has_into));
+    f("load_kg", load, {1, 1e6},
+      "Mass of soil in the beds of `into` at which the step is done; the last passes are alike.",
+      scene::given(has_load));
     f("pass_depth_m", pass_depth, {0.02, 5}, "Largest depth of one pass.");
     f("fill", fill, {0.1, 1.5},
       "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "

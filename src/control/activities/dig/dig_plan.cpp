@@ -32,6 +32,8 @@ constexpr double kThinner = 0.7;    // a slice after one that held the bucket, o
 constexpr double kThinnest = 0.1;   // what the soil's cells still resolve [m]
 // The rest of a slice below this share of a bucket waits for the next slice.
 constexpr double kWorth = 0.7;
+// That of the last slice of a job's cut: the rest waits for the layer below it.
+constexpr double kWorthCut = 0.3;
 // The rest of the last slice below this share of a bucket stays, but no more than this share of the
 // trench.
 constexpr double kWorthLast = 0.15, kMostRest = 0.05;
@@ -71,6 +73,28 @@ DigPlan::DigPlan(const Dig& dig, const TrenchLine& line, double scoop_volume,
   for (int i = 0; i < samples(); ++i) start_[static_cast<std::size_t>(i)] = height(surface, at(i));
   // Nothing has been refused yet.
   deepest_.assign(start_.size(), dig.depth);
+  if (dig_.floor.empty()) return;
+  for (int i = 0; i < samples(); ++i) deepest_[static_cast<std::size_t>(i)] = floor_depth(i);
+  dig_.depth = std::max(kTolerance, *std::max_element(deepest_.begin(), deepest_.end()));
+}
+
+double DigPlan::floor_depth(int i) const {
+  if (dig_.floor.empty()) return dig_.depth;
+  return std::max(0.0, start_[static_cast<std::size_t>(i)] - between(dig_.floor, at(i)));
+}
+
+double DigPlan::floor_height(double s, double level) const {
+  const double pass = start_height(s) - level;
+  return dig_.floor.empty() ? pass : std::max(pass, between(dig_.floor, s));
+}
+
+double DigPlan::design_volume() const {
+  if (dig_.floor.empty()) return length_ * dig_.width * dig_.depth;
+  double sum = 0;
+  // The first sample has no piece before it, as in volume_above.
+  for (int i = 1; i < samples(); ++i)
+    sum += floor_depth(i) * dig_.width * length_ / (samples() - 1);
+  return sum;
 }
 
 void DigPlan::derive() {
@@ -93,7 +117,7 @@ double DigPlan::height(const SurfaceView& surface, double s) const {
 double DigPlan::highest_beside(const SurfaceView& surface, double s) const {
   const Vec2 across(-along_.y(), along_.x());
   // From the wall outward, on both sides.
-  double out = start_height(s);
+  double out = dig_.is_cut ? std::max(dig_.rim, start_height(s)) : start_height(s);
   for (int i = 0; i * kSample <= kBeside + 1e-9; ++i)
     for (const double side : {-1.0, 1.0}) {
       const Vec2 p = point(s) + side * (0.5 * dig_.width + i * kSample) * across;
@@ -102,11 +126,14 @@ double DigPlan::highest_beside(const SurfaceView& surface, double s) const {
   return out;
 }
 
-double DigPlan::start_height(double s) const {
+double DigPlan::start_height(double s) const { return between(start_, s); }
+
+double DigPlan::between(const std::vector<double>& values, double s) const {
   // Linear between samples, constant beyond the ends.
-  const double t = std::clamp(s / length_ * (samples() - 1), 0.0, samples() - 1.0);
-  const auto i = static_cast<std::size_t>(std::min(samples() - 2, static_cast<int>(t)));
-  return start_[i] + (t - static_cast<double>(i)) * (start_[i + 1] - start_[i]);
+  const int n = static_cast<int>(values.size());
+  const double t = std::clamp(s / length_ * (n - 1), 0.0, n - 1.0);
+  const auto i = static_cast<std::size_t>(std::min(n - 2, static_cast<int>(t)));
+  return values[i] + (t - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
 double DigPlan::remaining(const SurfaceView& surface, int i, double level) const {
@@ -187,12 +214,13 @@ TrenchState DigPlan::state(const SurfaceView& surface) const {
   std::vector<double> depths;
   for (int i = 0; i < samples(); ++i) {
     const double before = start_[static_cast<std::size_t>(i)];
+    const double commanded = floor_depth(i);
     depths.push_back(before - height(surface, at(i)));
-    if (depths.back() > dig_.depth - kOnFloor) out.floor += 1.0 / samples();
+    if (depths.back() > commanded - kOnFloor) out.floor += 1.0 / samples();
     for (int k = 0; i > 0 && k < kStripes; ++k) {
       const Vec2 p = point(at(i)) + ((k + 0.5) / kStripes - 0.5) * dig_.width * across;
       out.left +=
-          piece * std::clamp(dig_.depth - before + surface.height(p.x(), p.y()), 0.0, dig_.depth);
+          piece * std::clamp(commanded - before + surface.height(p.x(), p.y()), 0.0, commanded);
     }
   }
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
@@ -252,7 +280,8 @@ Scoop DigPlan::next(const SurfaceView& surface, bool hindered) const {
     const double rest = volume_above(surface, level);
     above = level;
     // What is left of the last slice, if no more than a load, is the clean-up's.
-    if (rest < (k < slices() ? kWorth : 1 + kOverload) * scoop_volume_) continue;
+    const double worth = k < slices() ? kWorth : dig_.is_cut ? kWorthCut : 1 + kOverload;
+    if (rest < worth * scoop_volume_) continue;
     // A scoop begins behind what lies thin on the floor, unless nothing else is left.
     for (const double least : {thick, kTolerance})
       for (int i = samples() - 1; i >= 1; --i)
@@ -282,6 +311,8 @@ void DigPlan::visit(Archive& a) {
   a("width", dig_.width);
   a("dump_height", dig_.dump_height);
   a("pass_depth", dig_.pass_depth);
+  // Only cuts of jobs have a floor of their own; trenches keep their bytes.
+  if (dig_.is_cut) a("floor", dig_.floor);
   a("line", line_);
   a("scoop_volume", scoop_volume_);
   a("start", start_);

@@ -65,6 +65,8 @@ class DigPlan {
  public:
   /// Makes an empty plan. Assign another plan to it, or load one, before use.
   DigPlan() = default;
+  /// Makes an empty plan of the trench `dig`, to load the state of one.
+  explicit DigPlan(const Dig& dig) : dig_(dig) {}
   /// Makes the plan of the trench `dig` with the centre line `line`. `surface` is the original
   /// surface, and `scoop_volume` the volume that a full bucket takes from undisturbed ground [m3].
   DigPlan(const Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface);
@@ -94,6 +96,9 @@ class DigPlan {
   TrenchState state(const SurfaceView& surface) const;
   /// Returns the height of the original surface at `s` [m] in W [m].
   double start_height(double s) const;
+  /// Returns the height in W [m] down to which a pass at the depth `level` [m] digs at `s` [m]: the
+  /// floor of the trench, if that is higher.
+  double floor_height(double s, double level) const;
   /// Returns the height in W [m] of the highest ground at `s` [m] beside the trench: from its edges
   /// to half a metre beyond them. The result is at least the original height.
   double highest_beside(const SurfaceView& surface, double s) const;
@@ -102,7 +107,7 @@ class DigPlan {
   /// Returns the length of the trench [m].
   double length() const { return length_; }
   /// Returns the volume of the commanded trench [m3].
-  double design_volume() const { return length_ * dig_.width * dig_.depth; }
+  double design_volume() const;
 
   /// Saves or loads the plan.
   void visit(Archive& a);
@@ -144,6 +149,11 @@ class DigPlan {
   int samples() const { return static_cast<int>(start_.size()); }
   /// Computes `along_` and `length_` from the ends of the line.
   void derive();
+
+  /// Returns the depth of the floor at sample `i` below the original surface [m].
+  double floor_depth(int i) const;
+  /// Returns the values of samples between `near` and `far`, linear at `s` [m].
+  double between(const std::vector<double>& values, double s) const;
 
   // Commanded trench; `thin` reduces its pass depth.
   Dig dig_;

@@ -13,10 +13,8 @@ namespace navvy::control {
 namespace {
 
 constexpr double kMostOffset = 0.15;  // of the trench's line from the swing axis [m]
-// Distance from the end of the trench to the swing axis: clear of wheels and undercarriage [m].
-constexpr double kNearest = 3.0;
-constexpr double kWiderCut = 0.1;    // than the bucket [m]
-constexpr double kSpoilClear = 0.5;  // dump point to the trench's edge [m]
+constexpr double kWiderCut = 0.1;     // than the bucket [m]
+constexpr double kSpoilClear = 0.5;   // dump point to the trench's edge [m]
 constexpr const char* kMoveOrTurn = "move the target or turn the machine";
 
 /// Checks one dig at one pose of the machine. Stops at a line beside the swing axis, as everything
@@ -46,9 +44,9 @@ class DigReach {
                        ", or turn the line towards the machine");
       return;
     }
-    if (line.near_reach < kNearest)
+    if (line.near_reach < kNearestDig)
       check_.fault("dig/near end", metres(line.near_reach) + " from the swing axis",
-                   "the trench must stay " + metres(kNearest) + " clear of it",
+                   "the trench must stay " + metres(kNearestDig) + " clear of it",
                    "end it farther away or stand farther back");
     check_.require_swing(arm_, "dig/line", line.swing, kMoveOrTurn);
     for (const auto& [name, p] :
@@ -72,22 +70,10 @@ class DigReach {
  private:
   /// Checks the tip at W (p, z), digging or plunging.
   void require_tip(const char* element, const Vec2& p, double z) {
-    // The bucket may rotate away from its plunging angle, as it does when it digs.
     const SwingPoint at = swing_point(X_WS_, Vec3(p.x(), p.y(), z));
-    const auto possible = [&](double reach) {
-      BucketPose pose{reach, at.height, at.level(with_cut(arm_, kPlunge))};
-      ArmAngles q;
-      return arm_.inverse_nearest(pose, q);
-    };
-    if (possible(at.reach)) return;
-    // Find by trial how far would have been possible at that height: the message shall help to
-    // place the machine.
-    double least = 0, most = 0;
-    for (double r = 0.5; r < arm_.longest() + 2; r += 0.02) {
-      if (!possible(r)) continue;
-      if (most == 0) least = r;
-      most = r;
-    }
+    if (can_dig_at(arm_, at.reach, at.height, at.pitch)) return;
+    // How far would have been possible at that height: the message shall help to place the machine.
+    const auto [least, most] = tip_reach(arm_, at.height, at.pitch);
     check_.fault(element,
                  metres(at.reach) + " from the swing axis at height " + metres(z) + " (" +
                      metres(at.height) + " over the swing ring)",

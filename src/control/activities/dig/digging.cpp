@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -47,6 +48,10 @@ constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // Share of the design volume: with more left, a trench is not done
 // [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
+// Share of a stated load that may lack, and by which the last pass may be larger than a bucket.
+constexpr double kLoaded = 0.03, kMorePass = 0.1;
+// Bounds of the mass of a scoop / the mass that it aims at: a scoop that met rock teaches nothing.
+constexpr double kLeastGain = 0.8, kMostGain = 1.25;
 // A pass along the floor that brings less than this share of a load is the last one: one of the
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
@@ -98,6 +103,8 @@ void Digging::begin(const Observation& seen) {
 }
 
 bool Digging::plan_scoop(const Observation& seen) {
+  const double lack = lacking(seen);
+  if (lack <= kLoaded * dig_.load && dig_.has_load) return false;
   // Both limits end the dig whatever the plan still sees.
   if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty)
     return false;
@@ -106,17 +113,24 @@ bool Digging::plan_scoop(const Observation& seen) {
   m.cleaning = 0;
   // Soil that fell back is spread along the whole floor, too thin for a scoop of the plan; one or
   // two passes clean it up.
-  if (!scoop.any && may_clean(seen)) {
+  if (!scoop.any && !dig_.is_cut && may_clean(seen)) {
     scoop = with_surface(
         seen, [&](const SurfaceView& surface) { return plan_.clean_up(surface, m.hindered != 0); });
     m.cleaning = scoop.any ? 1 : 0;
   }
   if (!scoop.any || beyond_reach(scoop)) return false;
+  // The rest is divided into equal passes, so that no small one is left.
+  if (dig_.has_load) m.wanted = lack / std::max(1.0, std::ceil(lack / m.full_mass - kMorePass));
   m.scoop_start = scoop.start;
   m.soil_start = scoop.soil;
   m.scoop_end = scoop.end;
   m.scoop_level = scoop.level;
   return true;
+}
+
+double Digging::lacking(const Observation& seen) const {
+  if (!dig_.has_load) return std::numeric_limits<double>::infinity();
+  return dig_.load - (seen.load_of ? seen.load_of(dig_.into) : 0.0);
 }
 
 bool Digging::may_clean(const Observation& seen) const {
@@ -133,9 +147,8 @@ bool Digging::may_clean(const Observation& seen) const {
 
 bool Digging::beyond_reach(const Scoop& scoop) const {
   const Vec2 p = plan_.point(scoop.start);
-  const SwingPoint at =
-      swing_point(m.stance.swing_frame(arm_),
-                  Vec3(p.x(), p.y(), plan_.start_height(scoop.start) - scoop.level));
+  const SwingPoint at = swing_point(
+      m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), plan_.floor_height(scoop.start, scoop.level)));
   // A position nearer or farther by the tolerance would do.
   for (const double off : {0.0, -kBeyond, kBeyond}) {
     BucketPose pose{at.reach + off, at.height, at.level(with_cut(arm_, kPlunge))};
@@ -152,7 +165,7 @@ void Digging::go_to_scoop(Phase next, const Observation& seen) {
   const double ground = with_surface(seen, [&](const SurfaceView& surface) {
     return next == kReturn ? plan_.highest_beside(surface, m.s) : surface.height(p.x(), p.y());
   });
-  const double z = std::max(ground, plan_.start_height(m.s) - m.scoop_level) + kClear;
+  const double z = std::max(ground, plan_.floor_height(m.s, m.scoop_level)) + kClear;
   const Axes to = m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge));
   const double turn = std::min(swing_acceleration(place_, {to[1], to[2], to[3]}, 0, seen),
                                swing_acceleration(place_, place_.arm_angles(), 0, seen));
@@ -264,6 +277,7 @@ void Digging::shake(const Observation& seen) {
 }
 
 void Digging::look_round(const Observation& seen) {
+  if (dig_.is_cut) return enter(kLook);
   // Bucket half closed and aside, while loose soil comes to rest.
   ArmAngles q = place_.arm_angles();
   q[2] = std::clamp(q[2] + std::remainder(-0.75 * kPi - arm_.forward(q).angle, 2 * kPi),
@@ -298,8 +312,9 @@ void Digging::start_scoop(const Observation& seen) {
 }
 
 bool Digging::end_cycle(const Observation& seen) {
-  // After a pause, look again: soil may have slid into the trench, or come to rest there.
-  if (!move(seen) || phase_time() < kRest) return false;
+  // After a pause, look again: soil may have slid into the trench, or come to rest there. The cuts
+  // of a job are looked at together.
+  if (!dig_.is_cut && (!move(seen) || phase_time() < kRest)) return false;
   if (falls_short_of_receiver(seen)) return true;
   if (plan_scoop(seen)) {
     go_to_scoop(kReturn, seen);
@@ -313,7 +328,22 @@ bool Digging::falls_short_of_receiver(const Observation& seen) {
   return !shortfall.empty() && fall_short(StepState::kStalled, std::move(shortfall));
 }
 
+bool Digging::conclude_load(const Observation& seen) {
+  const double lack = lacking(seen);
+  const std::string loaded = "'" + dig_.into + "' holds " + number_text(dig_.load - lack, "kg") +
+                             " of " + number_text(dig_.load, "kg") + " after " +
+                             std::to_string(cycles()) + " passes";
+  if (lack <= kLoaded * dig_.load) {
+    remark(loaded);
+    return true;
+  }
+  if (cycles() >= dig_.max_cycles.value_or(kMostCycles))
+    return fall_short(StepState::kOutOfTime, loaded);
+  return fall_short(StepState::kBlocked, "no more soil comes into the bucket; " + loaded);
+}
+
 bool Digging::conclude(const Observation& seen) {
+  if (dig_.has_load) return conclude_load(seen);
   const TrenchState now =
       with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
   const std::string left = number_text(now.left, "m3") + " of " +
@@ -324,6 +354,7 @@ bool Digging::conclude(const Observation& seen) {
   if (m.empty_scoops >= kMostEmpty && undone)
     return fall_short(StepState::kStalled,
                       "three empty scoops in a row: nothing more comes into the bucket; " + left);
+  if (dig_.is_cut) return true;
   // A program that sets a number of cycles wants these, not the trench.
   if (dig_.max_cycles && cycles() >= *dig_.max_cycles) {
     remark("made its " + std::to_string(*dig_.max_cycles) + " cycles; " + left);
@@ -354,6 +385,7 @@ std::vector<Measurement> Digging::account(const Observation& seen) const {
                                   {"volume_left_m3", now.left},
                                   {"depth_m", dig_.depth},
                                   {"depth_reached_m", now.depth}};
+  if (dig_.has_load) out.push_back({"loaded_kg", dig_.load - lacking(seen)});
   const std::vector<Measurement> landed = landing_.account();
   out.insert(out.end(), landed.begin(), landed.end());
   return out;
@@ -404,6 +436,8 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
     case kSwing:
       if (!swing(seen)) break;
       if (m.cleaning != 0) m.cleaned = seen.payload;
+      if (dig_.has_load && m.wanted > 0)
+        m.gain = std::clamp(m.gain * seen.payload / m.wanted, kLeastGain, kMostGain);
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       if (met_undiggable(seen))
         with_surface(seen,
@@ -459,6 +493,11 @@ void Digging::visit(Archive& a) {
   // The phase indexes a table of names.
   a.require(phase_index() >= kReturn && phase_index() <= kLook, "phase", "no phase of a dig");
   a("plan", plan_);
+  // Only digs to a stated mass have it; others keep their bytes.
+  if (dig_.has_load) {
+    a("wanted", m.wanted);
+    a.ranged("gain", m.gain, kLeastGain, kMostGain);
+  }
   landing_.visit(a);
 }
 

@@ -44,6 +44,11 @@ struct DiggingMemory {
   /// Bank volume (`scoop_volume` [m3]) and mass (`full_mass` [kg]) of the soil in a bucket that
   /// counts as full.
   double scoop_volume = 0, full_mass = 0;
+  /// Mass that the current scoop aims at when a bed is loaded to a stated mass [kg].
+  double wanted = 0;
+  /// Mass that the last scoop brought / mass that it aimed at; the curl adds to what the drag sees
+  /// [-].
+  double gain = 1;
   /// TipPath::lift when the drag began [m].
   double lift_before = 0;
   /// Integral of the additional lift since then over the distance dragged [m2].
@@ -76,7 +81,7 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Makes the activity of the step `dig`. The step and `place` must outlive it; `place` must have
   /// an arm.
   Digging(OperatorContext& place, const Dig& dig)
-      : ActivityWith(place), dig_(dig), arm_(*place.arm), landing_(dig.into) {}
+      : ActivityWith(place), dig_(dig), arm_(*place.arm), plan_(dig), landing_(dig.into) {}
 
   /// Records the machine's pose and the original surface, and starts the move to the first scoop.
   void begin(const Observation& seen) override;
@@ -149,6 +154,12 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Continues the final look. Returns false while it lasts or if there is a further scoop, and
   /// true if the dig is over.
   bool end_cycle(const Observation& seen);
+  /// Returns the mass that the bed still lacks [kg]; infinity without a stated mass.
+  double lacking(const Observation& seen) const;
+  /// Returns the mass that the current scoop aims at [kg].
+  double aimed_mass() const { return dig_.has_load ? m.wanted / m.gain : m.full_mass; }
+  /// Sets the result of a step that loads a bed. Always returns true.
+  bool conclude_load(const Observation& seen);
   /// Returns true if a further cleaning pass is allowed.
   bool may_clean(const Observation& seen) const;
   /// Returns true if the start of the scoop is out of reach from the machine's current position.
@@ -178,6 +189,9 @@ class Digging final : public ActivityWith<DiggingMemory> {
   bool curl(const Observation& seen, double dt, Command& out);
   /// Commands the arm to follow the tip path, which the phase has updated before.
   void follow_tip(const Observation& seen, double dt, Command& out);
+  /// Returns the angle of the cutting edge below the horizontal in the drag [rad]: on a floor that
+  /// rises outward so steep that the bucket's body follows in the cut of its edge.
+  double attack() const;
   /// Returns the lowest allowed height of the tip in W [m], at which no part of the bucket is below
   /// the slice.
   double floor_height() const;

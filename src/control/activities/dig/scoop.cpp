@@ -60,6 +60,11 @@ constexpr double kFairLoad = 0.93;
 // Raised by this on the way down, the scoop continues at that depth [m].
 constexpr double kPenetrateLift = 0.12;
 constexpr double kPhaseLimit = 12;  // [s]
+// Distance of the heel behind the edge, and below it from which on it decides [m].
+constexpr double kHeel = 0.5, kHeelDown = 0.02;
+// Length of the bucket's body behind its edge [m], angle between its floor plate and a floor that
+// rises behind it, and the largest angle of the edge [rad].
+constexpr double kBody = 0.7, kFollow = radians(6), kSteepest = radians(65);
 
 }  // namespace
 
@@ -71,7 +76,18 @@ bool Digging::overdue(double limit) const {
 }
 
 double Digging::floor_height() const {
-  return plan_.start_height(m.s) - m.scoop_level + arm_.below_tip(m.tip.reached);
+  const double below = arm_.below_tip(m.tip.reached),
+               floor = plan_.floor_height(m.s, m.scoop_level);
+  if (!dig_.is_cut || below < kHeelDown) return floor + below;
+  // The heel is the lowest point, behind the edge, where the floor of a cut may be higher.
+  return std::max(floor, plan_.floor_height(m.s + kHeel, m.scoop_level)) + below;
+}
+
+double Digging::attack() const {
+  if (dig_.floor.empty()) return kAttack;
+  const double rise =
+      plan_.floor_height(m.s + kBody, m.scoop_level) - plan_.floor_height(m.s, m.scoop_level);
+  return std::clamp(std::atan2(rise, kBody) + kFollow, kAttack, kSteepest);
 }
 
 bool Digging::is_aligned(const Observation& seen) const {
@@ -120,7 +136,7 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
   m.s -= gone;
   m.held_up += std::max(0.0, m.tip.lift - m.lift_before) * gone;
   // The bucket rotates to its digging angle as soon as its back is clear of the far end.
-  const double wish = with_cut(arm_, -kPi + kAttack),
+  const double wish = with_cut(arm_, -kPi + attack()),
                turned = std::max(wish, m.tip.angle - kTurnIn * pace * dt);
   const double depth = plan_.start_height(m.s) - m.tip.z - m.tip.lift;
   if (plan_.length() - m.s + kPastEnd >= arm_.beyond_tip(turned, depth)) m.tip.angle = turned;
@@ -129,9 +145,9 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
   const double behind = bucket_pose(seen).angle - arm_.forward(place_.arm_angles()).angle;
   const bool turned_in = m.tip.angle + std::max(0.0, behind) <= wish + kTurnedIn;
   // Before it has rotated, its heel is at the far end, and the curl would press it into the wall.
-  const bool full = seen.payload >= kCurlAt * m.full_mass && turned_in;
+  const bool full = seen.payload >= kCurlAt * aimed_mass() && turned_in;
   // Equal loads leave no small rest of a slice; a dig of a number of cycles fills each.
-  const bool fair = !dig_.max_cycles && seen.payload > kFairLoad * m.full_mass;
+  const bool fair = !dig_.max_cycles && seen.payload > kFairLoad * aimed_mass();
   const bool planned = m.s <= m.scoop_end && (fair || m.s <= m.scoop_end - kMore);
   const double left_to_curl = m.cleaning != 0 ? kCleanCurlPath : kCurlPath;
   const bool at_end = m.s <= std::min(left_to_curl, 0.5 * m.scoop_start);
@@ -154,7 +170,10 @@ bool Digging::curl(const Observation& seen, double dt, Command& out) {
   const double arc = arm_.bucket_length() * (std::sin(m.tip.reached) - std::sin(m.curl_angle));
   const double turned = std::max(m.curl_z + std::max(0.0, kAboutPin * arc), floor_height());
   // First the bucket rotates; then it leaves the ground straight up.
-  const double top = plan_.start_height(m.s) + kOut + arm_.below_tip(m.tip.reached);
+  // Out of a pit over its rim, as the carry moves outward, where its sides rise.
+  const double surface = plan_.start_height(m.s);
+  const double clear = dig_.is_cut ? std::max(surface, dig_.rim) : surface;
+  const double top = clear + kOut + arm_.below_tip(m.tip.reached);
   m.tip.z = mix(turned, std::max(turned, top), smooth((m.progress - kRises) / (1 - kRises)));
   follow_tip(seen, dt, out);
   // The carry goes on before the bucket has come to rest.

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pit from several stations: turn the arm ahead, drive to a station, make its cuts, and so on.
+#include "control/activities/dig/area_digging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "control/activities/dig/dig.h"
+#include "control/activities/drive_to.h"
+#include "control/activities/go_to.h"
+#include "control/activities/swing.h"
+#include "control/reach.h"
+
+namespace navvy::control {
+namespace {
+
+// Tolerances of a station: cuts are planned from where the machine stands, so it need not be met
+// exactly [m], [rad].
+constexpr double kAtStation = 0.3, kAtHeading = radians(6);
+// A drive is straight if the target is so little aside of the machine's axis [m] and its heading
+// differs by so little [rad].
+constexpr double kAside = 0.4, kTurned = radians(6);
+// A cut is begun at most so often at one station: soil falls back into some.
+constexpr int kMostRepeats = 2;
+// Share of the commanded volume: with more left, the pit is not done, as for a trench.
+constexpr double kUndone = 0.15;
+
+/// Calls `use` with the surface that the operator sees: the view given, or the resting ground.
+template <class Use>
+auto with_surface(const Observation& seen, const Use& use) {
+  if (seen.surface != nullptr) return use(*seen.surface);
+  const GroundSurfaceView resting(*seen.ground);
+  return use(static_cast<const SurfaceView&>(resting));
+}
+
+}  // namespace
+
+void AreaMemory::visit(Archive& a) {
+  a("stations", stations);
+  a("station", station);
+  a.require(station >= 0 && station <= static_cast<std::int64_t>(stations.size()), "station",
+            "the job has no such station");
+  a("begun", begun);
+  a("cut", cut);
+  a("cuts", cuts);
+  a("failed", failed);
+  a("target", target);
+  a.ranged("planned", planned, 0, 3);
+}
+
+AreaDigging::~AreaDigging() = default;
+
+void AreaDigging::begin(const Observation& seen) {
+  // A cut without a floor could not be saved.
+  m.cut.floor = {0, 0};
+  const JobPlan plan = with_surface(seen, [&](const SurfaceView& surface) {
+    return place_.jobs->plan(job_, seen.X_WB, surface);
+  });
+  m.stations = plan.stations;
+  enter(kNext);
+}
+
+bool AreaDigging::stands_at(const Observation& seen, const PlanePose& pose) const {
+  const PlanePose at = plane_pose(seen.X_WB);
+  return (at.p - pose.p).norm() <= kAtStation &&
+         std::abs(std::remainder(at.yaw - pose.yaw, 2 * kPi)) <= kAtHeading;
+}
+
+void AreaDigging::aim(const Observation& seen) {
+  m.target = m.stations[static_cast<std::size_t>(m.station)];
+  const PlanePose at = plane_pose(seen.X_WB);
+  const Vec2 ahead(std::cos(at.yaw), std::sin(at.yaw)), across(-ahead.y(), ahead.x());
+  const Vec2 way = m.target.at.p - at.p;
+  const bool straight = std::abs(way.dot(across)) <= kAside &&
+                        std::abs(std::remainder(at.yaw - m.target.at.yaw, 2 * kPi)) <= kTurned;
+  m.planned = !straight ? 1 : way.dot(ahead) >= 0 ? 2 : 3;
+}
+
+void AreaDigging::make_part() {
+  part_.reset();
+  if (phase_index() == kTurn) {
+    part_step_ = std::make_unique<Swing>(0);
+  } else if (phase_index() == kDrive && m.planned == 1) {
+    auto step = std::make_unique<GoTo>();
+    step->target = m.target.at.p;
+    step->heading = m.target.at.yaw;
+    step->speed = step_.speed;
+    step->tolerance = kAtStation;
+    part_step_ = std::move(step);
+  } else if (phase_index() == kDrive) {
+    auto step = std::make_unique<DriveTo>();
+    step->target = m.target.at.p;
+    step->heading = m.target.at.yaw;
+    step->has_heading = true;
+    step->speed = m.planned == 2 ? step_.speed : -step_.speed;
+    step->tolerance = kAtStation;
+    part_step_ = std::move(step);
+  } else {
+    auto step = std::make_unique<Dig>();
+    step->from = m.cut.near;
+    step->to = m.cut.far;
+    step->floor = m.cut.floor;
+    step->is_cut = true;
+    step->rim = m.cut.rim;
+    step->width = place_.arm->bucket().width;
+    step->depth = job_.pass_depth;
+    // One layer is one slice, also where the ground is higher than it was.
+    step->pass_depth = 2 * job_.pass_depth;
+    step->dump_at = m.cut.dump_at;
+    step->dump_height = step_.dump_height;
+    step->fill = step_.fill;
+    step->has_fill = step_.has_fill;
+    part_step_ = std::move(step);
+  }
+  part_ = part_step_->activity(place_);
+}
+
+bool AreaDigging::select_cut(const Observation& seen) {
+  const std::vector<JobCut> cuts = with_surface(seen, [&](const SurfaceView& surface) {
+    return place_.jobs->cuts(job_, seen.X_WB, surface);
+  });
+  for (const JobCut& cut : cuts) {
+    if (std::count(m.begun.begin(), m.begun.end(), cut.key) >= kMostRepeats) continue;
+    m.begun.push_back(cut.key);
+    m.cut = cut;
+    ++m.cuts;
+    return true;
+  }
+  return false;
+}
+
+bool AreaDigging::go_on(const Observation& seen) {
+  const auto stations = static_cast<std::int64_t>(m.stations.size());
+  if (m.station >= stations) return conclude(seen);
+  const PlanePose& at = m.stations[static_cast<std::size_t>(m.station)].at;
+  // Cuts that were begun here mean that the machine has arrived, wherever digging has moved it.
+  if (m.begun.empty() && phase_index() != kDrive && !stands_at(seen, at)) {
+    // The arm points ahead while the machine drives.
+    enter(phase_index() == kTurn ? kDrive : kTurn);
+    if (phase_index() == kDrive) aim(seen);
+  } else if (select_cut(seen)) {
+    enter(kCut);
+  } else {
+    ++m.station;
+    m.begun.clear();
+    enter(kNext);
+    return false;
+  }
+  make_part();
+  part_->begin(seen);
+  return false;
+}
+
+bool AreaDigging::end_part(const Observation& seen) {
+  const StepState state = part_->state();
+  const std::string reason = part_->reason();
+  part_.reset();
+  part_step_.reset();
+  if (!fell_short(state)) return false;
+  if (phase_index() != kCut)
+    return Activity::fall_short(state, "on the way to station " + std::to_string(m.station + 1) +
+                                           " of " + std::to_string(m.stations.size()) + ": " +
+                                           reason);
+  // Another cut may do, and what is left decides in the end.
+  ++m.failed;
+  place_.warn("the cut from " + place_text(m.cut.far) + " to " + place_text(m.cut.near) +
+              " is left: " + reason);
+  (void)seen;
+  return false;
+}
+
+bool AreaDigging::update(const Observation& seen, double dt, Command& out) {
+  if (part_) {
+    const bool over = part_->advance(seen, dt, out);
+    if (const CycleEvent event = part_->take_event(); event != CycleEvent::kNone) tell(event);
+    return over && end_part(seen);
+  }
+  return go_on(seen);
+}
+
+bool AreaDigging::conclude(const Observation& seen) {
+  const JobVolume volume = with_surface(
+      seen, [&](const SurfaceView& surface) { return place_.jobs->volume(job_, surface); });
+  if (volume.left <= kUndone * volume.design) return true;
+  return Activity::fall_short(StepState::kBlocked,
+                              "what is left could not be dug: " + number_text(volume.left, "m3") +
+                                  " of " + number_text(volume.design, "m3"));
+}
+
+const char* AreaDigging::phase() const {
+  if (part_) return part_->phase();
+  return "plan";
+}
+
+std::vector<Measurement> AreaDigging::account(const Observation& seen) const {
+  const JobVolume volume = with_surface(
+      seen, [&](const SurfaceView& surface) { return place_.jobs->volume(job_, surface); });
+  return {{"stations", static_cast<double>(m.stations.size())},
+          {"station", static_cast<double>(m.station)},
+          {"cuts", static_cast<double>(m.cuts)},
+          {"cuts_failed", static_cast<double>(m.failed)},
+          {"design_volume_m3", volume.design},
+          {"volume_left_m3", volume.left}};
+}
+
+void AreaDigging::visit(Archive& a) {
+  ActivityWith::visit(a);
+  a.require(phase_index() >= kNext && phase_index() <= kCut, "phase", "no phase of a dig_area");
+  std::int64_t running = part_ ? 1 : 0;
+  a("running", running);
+  a.require(running == 0 || phase_index() != kNext, "running", "no part runs in this phase");
+  if (a.loading()) {
+    part_.reset();
+    part_step_.reset();
+    if (running != 0) make_part();
+  }
+  if (part_) a("part", *part_);
+}
+
+}  // namespace navvy::control

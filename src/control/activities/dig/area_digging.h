@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The activity that carries out a dig_area step. Private to the dig.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/activities/dig/dig_area.h"
+#include "control/activity.h"
+#include "control/job_planner.h"
+
+namespace navvy::control {
+
+/// State of a dig_area, except that of the part that runs.
+struct AreaMemory {
+  /// Stations as planned when the step began.
+  std::vector<JobStation> stations;
+  /// Index of the present station.
+  std::int64_t station = 0;
+  /// Keys of the cuts that were begun at the present station; a cut that was repeated twice.
+  std::vector<std::int64_t> begun;
+  /// The cut that runs.
+  JobCut cut;
+  /// Number of cuts made so far, and of those that failed.
+  std::int64_t cuts = 0, failed = 0;
+  /// Station to which the machine drives, and how: 1 along a planned path, 2 straight ahead, 3
+  /// straight back; 0 before the first drive.
+  JobStation target;
+  std::int64_t planned = 0;
+
+  /// Saves or loads all fields.
+  void visit(Archive& a);
+};
+
+/// Activity that carries out a dig_area: for each station turns the arm ahead, drives there, and
+/// makes the cuts that the job planner finds on the ground as it then is. Each of these is a part
+/// with an activity of its own.
+class AreaDigging final : public ActivityWith<AreaMemory> {
+ public:
+  /// Makes the activity of the step `step`. The step and `place` must outlive it; `place` must have
+  /// an arm, a path planner and a job planner.
+  AreaDigging(OperatorContext& place, const DigArea& step)
+      : ActivityWith(place), step_(step), job_(step.job()) {}
+  ~AreaDigging() override;
+
+  /// Plans the stations.
+  void begin(const Observation& seen) override;
+  /// Returns the name of the phase of the running part.
+  const char* phase() const override;
+  /// Returns numbers of stations, cuts and cycles, and the commanded volume with what is left of
+  /// it.
+  std::vector<Measurement> account(const Observation& seen) const override;
+  /// Saves or loads the state and the running part.
+  void visit(Archive& a) override;
+
+ private:
+  // Parts in the order in which a station is worked.
+  enum Phase : std::int64_t { kNext, kTurn, kDrive, kCut };
+
+  /// Advances the running part. Returns true when the job is over.
+  bool update(const Observation& seen, double dt, Command& out) override;
+  /// Begins the next part. Returns true when there is none or the step has failed.
+  bool go_on(const Observation& seen);
+  /// Selects the next cut at the present station; returns false if there is none.
+  bool select_cut(const Observation& seen);
+  /// Returns true if the machine stands at the pose.
+  bool stands_at(const Observation& seen, const PlanePose& pose) const;
+  /// Sets up the drive to the present station: straight if that leads there, else planned.
+  void aim(const Observation& seen);
+  /// Handles the end of the running part. Returns true when the step has failed.
+  bool end_part(const Observation& seen);
+  /// Ends the step by what is left.
+  bool conclude(const Observation& seen);
+  /// Makes step and activity of the part of the present phase, whose state is new.
+  void make_part();
+
+  // The step that is carried out, and its job.
+  const DigArea& step_;
+  const PitJob job_;
+  // Step and activity of the running part; null between parts. The activity refers to the step.
+  std::unique_ptr<ActivityStep> part_step_;
+  std::unique_ptr<Activity> part_;
+};
+
+}  // namespace navvy::control

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The dig_area step as a scene describes it; area_digging.h carries it out.
+#include "control/activities/dig/dig_area.h"
+
+#include <array>
+#include <cstdio>
+
+#include "control/activities/dig/area_digging.h"
+#include "control/arm_kinematics.h"
+#include "control/reach.h"
+#include "scene/polygon.h"
+
+namespace navvy::control {
+
+void DigArea::check(const scene::StepSource& source) {
+  const scene::Machine* machine = source.machine;
+  // The same parts as a dig and a drive need.
+  const bool can = machine && !machine->buckets.empty() && !machine->arm.boom.empty() &&
+                   !machine->arm.stick.empty() && !machine->arm.bucket.empty();
+  source.require(can,
+                 "dig_area needs a machine with <navvy:bucket> and <navvy:arm> (boom, stick, "
+                 "bucket)");
+  source.require(machine && machine->has_drive, "dig_area needs a machine with <navvy:drive>");
+  if (source.has("polygon_m"))
+    if (const std::optional<scene::PolygonFault> fault =
+            scene::polygon_of(polygon_numbers, polygon))
+      source.error("polygon_m", fault->value, fault->rule, fault->remedy);
+  source.on_site("dump_at_m", dump_at);
+  if (has_dump_to) source.on_site("dump_to_m", dump_to);
+  if (source.ground && depth > source.ground->depth)
+    source.error("depth_m", source.written("depth_m"), "must not exceed depth_m of the ground",
+                 "there is rock below; make the ground deeper");
+}
+
+std::optional<scene::DesignArea> DigArea::area() const {
+  if (polygon.empty()) return std::nullopt;
+  scene::DesignArea out;
+  out.polygon = polygon;
+  out.polygon_numbers = polygon_numbers;
+  out.depth = depth;
+  out.batter = batter;
+  return out;
+}
+
+PitJob DigArea::job() const {
+  return {area().value_or(scene::DesignArea{}), dump_at, has_dump_to ? dump_to : dump_at,
+          dump_height, pass_depth};
+}
+
+std::unique_ptr<Activity> DigArea::activity(OperatorContext& place) const {
+  return std::make_unique<AreaDigging>(place, *this);
+}
+
+void DigArea::check_reach(ReachCheck& check) const {
+  if (!check.jobs) {
+    check.fault("dig_area", "", "nobody plans jobs here",
+                "hand a job planner to the operator, or dig single trenches");
+    return;
+  }
+  const JobPlan plan = check.jobs->plan(job(), check.X_WB, check.surface);
+  for (const JobFault& one : plan.faults) {
+    const std::string part = std::string(kElement) + "/" + one.part;
+    if (one.error)
+      check.fault(part, one.value, one.rule, one.remedy);
+    else
+      check.warn(part, one.value, one.rule, one.remedy);
+  }
+  std::array<char, 160> line{};
+  std::snprintf(line.data(), line.size(), "%.2f m3 from %zu station%s", plan.volume,
+                plan.stations.size(), plan.stations.size() == 1 ? "" : "s");
+  check.note(line.data());
+  for (std::size_t i = 0; i < plan.stations.size(); ++i) {
+    const JobStation& one = plan.stations[i];
+    std::snprintf(line.data(), line.size(),
+                  "station %zu at (%.2f, %.2f) m, heading %.0f deg: %lld cuts, %.2f m3", i + 1,
+                  one.at.p.x(), one.at.p.y(), degrees(one.at.yaw), static_cast<long long>(one.cuts),
+                  one.volume);
+    check.note(line.data());
+  }
+  if (plan.stations.empty()) return;
+  // The steps after this one begin at the last station.
+  const PlanePose& last = plan.stations.back().at;
+  const double rise =
+      check.X_WB.translation().z() -
+      check.surface.height(check.X_WB.translation().x(), check.X_WB.translation().y());
+  check.X_WB = make_pose(last.p.x(), last.p.y(),
+                         check.surface.height(last.p.x(), last.p.y()) + rise, 0, 0, last.yaw);
+}
+
+}  // namespace navvy::control

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program step `dig_area`: digs a pit of a given shape from several stations.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/activity_step.h"
+#include "control/job_planner.h"
+
+namespace navvy::control {
+
+/// Digs a pit with a level floor inside a polygon and battered sides. The pit may be wider than the
+/// bucket and larger than the arm's reach.
+///
+/// A job planner (JobPlanner) chooses the stations. At each one the machine digs radial strips one
+/// bucket wide, layer by layer, as the ground then is, and backs to the next one. Between stations
+/// it drives straight; to the first one along a planned path where straight does not lead there.
+///
+/// The step is done if at most 15 % of the commanded volume is left. A cut that fails is left out;
+/// the step fails if the machine cannot get to a station.
+struct DigArea final : ActivityStep {
+  /// Name of the step's element in scene files.
+  static constexpr const char* kElement = "dig_area";
+  /// One-sentence description of the step for the reference of scene elements.
+  static constexpr const char* kText =
+      "Digs a pit inside a polygon, with battered sides, layer by layer from several stations.";
+  /// Coordinates x y of the floor's corners in W [m], as the file lists them.
+  std::vector<double> polygon_numbers;
+  /// Corners of the floor in W (x, y) [m].
+  std::vector<Vec2> polygon;
+  /// Depth of the floor at the first corner below the ground at the start [m].
+  double depth = 1;
+  /// Angle of the sides from the horizontal [rad]; pi/2: vertical.
+  double batter = radians(45);
+  /// Ends (x, y) in W of the windrow in which the soil is dumped [m].
+  Vec2 dump_at = Vec2::Zero(), dump_to = Vec2::Zero();
+  /// True if the scene file gives `dump_to`; without it the soil is dumped in a heap at `dump_at`.
+  bool has_dump_to = false;
+  /// Height of the bucket's tip above the ground when the bucket opens [m].
+  double dump_height = 1.5;
+  /// Largest depth of a layer [m].
+  double pass_depth = 0.5;
+  /// Bucket fill factor that a scoop aims at; used if `has_fill`, else the soil decides.
+  double fill = 1;
+  bool has_fill = false;
+  /// Speed between stations [m/s].
+  double speed = 0.6;
+
+  /// Lists the child elements of the step with their ranges and descriptions.
+  void describe(scene::Fields& f) override {
+    f("polygon_m", polygon_numbers, {-1e6, 1e6},
+      "Coordinates x y in W of the 3 to 1000 corners of the floor; edges must not cross.",
+      scene::kNeeded);
+    f("depth_m", depth, {0.1, 20}, "Depth of the floor below the ground at the first corner.",
+      scene::kNeeded);
+    f("batter_deg", batter, {15, 90}, "Angle of the sides from the horizontal; 90: vertical.");
+    f("dump_at_m", dump_at, {-1e6, 1e6}, "Place of the spoil in W.", scene::kNeeded);
+    f("dump_to_m", dump_to, {-1e6, 1e6},
+      "Other end of a windrow that begins at dump_at_m; without it the spoil is a heap.",
+      scene::given(has_dump_to));
+    f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
+    f("pass_depth_m", pass_depth, {0.1, 5}, "Largest depth of a layer.");
+    f("fill", fill, {0.1, 1.5},
+      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
+      "soil.",
+      scene::given(has_fill));
+    f("speed_m_per_s", speed, {0.05, 20}, "Speed between stations.");
+  }
+  /// Reports an error if the machine cannot dig or drive, for a polygon without an inside, for
+  /// places off the site, and for a pit deeper than the ground.
+  void check(const scene::StepSource& source);
+  /// Returns the name of the step's element in scene files.
+  const char* element() const override { return kElement; }
+  /// Returns the pit.
+  std::optional<scene::DesignArea> area() const override;
+  /// Returns true: digging uses the arm.
+  bool needs_arm() const override { return true; }
+  /// Returns true: the drive to the first station is planned.
+  bool needs_planner() const override { return true; }
+  /// Returns true: a job planner chooses stations and cuts.
+  bool needs_job_planner() const override { return true; }
+  /// Returns an activity with the phases of driving and digging.
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
+  /// Reports the faults of the job planner's plan, and its stations as notes.
+  void check_reach(ReachCheck& check) const override;
+  /// Returns the beginning of the windrow.
+  std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }
+
+  /// Returns the job for the job planner.
+  PitJob job() const;
+};
+
+}  // namespace navvy::control

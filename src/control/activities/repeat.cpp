@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/activities/repeat.h"
+
+#include <vector>
+
+#include "control/activity.h"
+#include "control/reach.h"
+
+namespace navvy::control {
+namespace {
+
+// Without state: the operator counts rounds.
+class Repeating final : public Activity {
+ public:
+  Repeating(OperatorContext& place, const Repeat& step) : Activity(place), step_(step) {}
+  const char* phase() const override { return "repeat"; }
+  void begin(const Observation&) override {}
+  std::vector<Measurement> account(const Observation&) const override {
+    return {{"rounds", static_cast<double>(rounds())}};
+  }
+
+ private:
+  /// Returns the number of rounds that are over.
+  std::int64_t rounds() const {
+    const auto i = static_cast<std::size_t>(place_.step - 1);
+    return 1 + (i < place_.rounds.size() ? place_.rounds[i] : 0);
+  }
+  bool update(const Observation& seen, double, Command&) override {
+    if (step_.times && rounds() >= *step_.times)
+      remark("all rounds are over");
+    else if (step_.has_until && place_.now >= step_.until)
+      remark("it is " + number_text(place_.now, "s"));
+    else if (step_.has_load && seen.load_of && seen.load_of(step_.into) >= step_.load)
+      remark("'" + step_.into + "' is loaded");
+    else
+      go_back();
+    return true;
+  }
+
+  const Repeat& step_;
+};
+
+}  // namespace
+
+void Repeat::check(const scene::StepSource& source) {
+  if (!times && !has_until && !has_load)
+    source.error("", "", "repeat needs an end",
+                 "add <times>, <until_time_s>, or <into> and <load_kg>");
+  if (has_load && into.empty())
+    source.error("load_kg", source.written("load_kg"), "needs the machine that is loaded",
+                 "name it in <into>");
+}
+
+std::unique_ptr<Activity> Repeat::activity(OperatorContext& place) const {
+  return std::make_unique<Repeating>(place, *this);
+}
+
+void Repeat::check_reach(ReachCheck& check) const {
+  if (static_cast<std::size_t>(steps) > check.steps_before())
+    check.fault(
+        "repeat/steps", std::to_string(steps),
+        "the program has " + std::to_string(check.steps_before()) + " steps before this one",
+        "repeat at most so many");
+}
+
+}  // namespace navvy::control

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interface through which an operator asks for stations and cuts of a whole job. A higher-level
+// module implements it, and the application passes it in.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/pursuit.h"
+#include "control/surface.h"
+#include "core/archive.h"
+#include "scene/design.h"
+#include "scene/machine.h"
+
+namespace navvy::control {
+
+/// A pit to dig, and the place of its spoil.
+struct PitJob {
+  /// Shape of the pit; its depth is above 0.
+  scene::DesignArea area;
+  /// Ends (x, y) in W of the windrow in which the spoil is dumped [m]; both the same: a heap.
+  Vec2 dump_from = Vec2::Zero(), dump_to = Vec2::Zero();
+  /// Height of the bucket's tip above the ground when it opens [m].
+  double dump_height = 1.5;
+  /// Largest depth of a layer [m].
+  double pass_depth = 0.5;
+};
+
+/// One cut of a job: a strip one bucket wide, radial to the swing axis, in one layer.
+struct JobCut {
+  /// Ends of the strip's centre line in W [m], the nearer and the farther one.
+  Vec2 near = Vec2::Zero(), far = Vec2::Zero();
+  /// Heights of its floor in W at equal distances from `near` to `far` [m], at least two.
+  std::vector<double> floor;
+  /// Height in W above which the bucket clears the sides of the pit while it swings [m].
+  double rim = 0;
+  /// Volume above the floor [m3].
+  double volume = 0;
+  /// Place (x, y) in W at which the soil is dumped [m].
+  Vec2 dump_at = Vec2::Zero();
+  /// Number of layer and direction; the same for the same cut on changed ground.
+  std::int64_t key = 0;
+
+  /// Saves or loads all fields.
+  void visit(Archive& a);
+};
+
+/// One place from which a part of a job is dug.
+struct JobStation {
+  /// Pose of the middle of the rear axle.
+  PlanePose at;
+  /// Expected number of cuts and volume of soil [m3].
+  std::int64_t cuts = 0;
+  double volume = 0;
+
+  /// Saves or loads all fields.
+  void visit(Archive& a);
+};
+
+/// Fault that keeps a job from being done, as the check before a run reports it.
+struct JobFault {
+  /// Part of the job that is wrong, such as "dump_at".
+  std::string part;
+  /// Offending value, violated rule and suggestion.
+  std::string value, rule, remedy;
+  /// False for a warning.
+  bool error = true;
+};
+
+/// Stations of a job in the order in which the machine works from them.
+struct JobPlan {
+  /// The stations.
+  std::vector<JobStation> stations;
+  /// Volume of the job [m3], and the part of it that no station reaches.
+  double volume = 0, unreachable = 0;
+  /// Faults that were found.
+  std::vector<JobFault> faults;
+};
+
+/// Commanded volume of a job and the part of it that is left [m3].
+struct JobVolume {
+  double design = 0, left = 0;
+};
+
+/// Plans the job of one machine. All results depend only on the arguments, so that a run resumed
+/// from a snapshot gets the same ones.
+class JobPlanner {
+ public:
+  virtual ~JobPlanner() = default;
+  /// Returns the stations of a job on ground that is `surface`, for a machine whose base link
+  /// stands at X_WB at the start.
+  virtual JobPlan plan(const PitJob& job, const Pose& X_WB, const SurfaceView& surface) const = 0;
+  /// Returns the cuts that are worth a scoop on the present `surface`, from the place where the
+  /// machine stands: layer by layer from the top, in each from one side to the other.
+  virtual std::vector<JobCut> cuts(const PitJob& job, const Pose& X_WB,
+                                   const SurfaceView& surface) const = 0;
+  /// Returns the volumes of a job on the present `surface`.
+  virtual JobVolume volume(const PitJob& job, const SurfaceView& surface) const = 0;
+};
+
+/// Function that makes a job planner for a machine.
+using MakeJobPlanner = std::function<std::unique_ptr<JobPlanner>(const scene::Machine&)>;
+
+}  // namespace navvy::control

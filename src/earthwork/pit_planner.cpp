@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "earthwork/pit_planner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "control/reach.h"
+#include "core/error.h"
+#include "earthwork/cut_fan.h"
+#include "earthwork/pit_checks.h"
+#include "earthwork/pit_shape.h"
+#include "earthwork/spoil_place.h"
+#include "earthwork/station_search.h"
+
+namespace navvy::earthwork {
+namespace {
+
+/// A pit wider than this [m] is dug in lanes. With a reach of 7 to 8 m a machine in the middle of
+/// its lane gets to both edges some metres ahead.
+constexpr double kLane = 7;
+
+class PitPlanner final : public control::JobPlanner {
+ public:
+  explicit PitPlanner(const scene::Machine& machine) : arm_(machine), reach_(arm_) {}
+
+  control::JobPlan plan(const control::PitJob& job, const Pose& X_WB,
+                        const control::SurfaceView& surface) const override {
+    control::JobPlan out;
+    try {
+      const PitShape pit(job, surface);
+      out.volume = pit.volume().design;
+      const double rise =
+          X_WB.translation().z() - surface.height(X_WB.translation().x(), X_WB.translation().y());
+      Stations found = choose(job, pit, X_WB, rise, surface);
+      out.stations = found.stations;
+      out.unreachable = found.lost;
+      count_cuts(job, pit, rise, surface, out);
+      out.faults = check_pit(job, pit, surface);
+      check_stations(job, found, {arm_, rise}, surface, out.faults);
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults())
+        out.faults.push_back({"polygon_m", fault.value, fault.rule, fault.remedy});
+    }
+    return out;
+  }
+
+  std::vector<control::JobCut> cuts(const control::PitJob& job, const Pose& X_WB,
+                                    const control::SurfaceView& surface) const override {
+    const PitShape pit(job, surface);
+    std::vector<control::JobCut> out = cut_fan(job, pit, reach_, X_WB, surface);
+    if (out.empty()) return out;
+    const std::optional<Vec2> place = spoil_place(job, arm_, X_WB * arm_.X_BS(), surface);
+    // A machine that stands askew dumps where it was to dump.
+    for (control::JobCut& one : out) one.dump_at = place.value_or(job.dump_from);
+    return out;
+  }
+
+  control::JobVolume volume(const control::PitJob& job,
+                            const control::SurfaceView& surface) const override {
+    return PitShape(job, surface).volume();
+  }
+
+ private:
+  /// Returns the axes of the lanes along a heading, the one farthest from the spoil first.
+  static std::vector<RetreatAxis> lanes(const control::PitJob& job, const PitShape& pit,
+                                        double heading) {
+    const Vec2 across(-std::sin(heading), std::cos(heading));
+    double low = 1e9, high = -1e9;
+    Vec2 middle = Vec2::Zero();
+    const std::vector<PitColumn> columns = pit.columns();
+    for (const PitColumn& one : columns) {
+      low = std::min(low, one.p.dot(across));
+      high = std::max(high, one.p.dot(across));
+      middle += one.p / static_cast<double>(columns.size());
+    }
+    const int n = std::max(1, static_cast<int>(std::ceil((high - low) / kLane - 1e-9)));
+    const double width = (high - low) / n + pit.cell();
+    std::vector<RetreatAxis> out;
+    for (int i = 0; i < n; ++i) {
+      const double at = low + (i + 0.5) * (high - low) / n;
+      out.push_back({middle + (at - middle.dot(across)) * across, heading, 0.5 * width});
+    }
+    const double spoil = 0.5 * (job.dump_from + job.dump_to).dot(across);
+    if (spoil < 0.5 * (low + high)) std::reverse(out.begin(), out.end());
+    return out;
+  }
+
+  /// Returns the stations along the best of the axes parallel and square to the longest edge: those
+  /// that leave the least soil, then those that reach the spoil, then the fewest, then the nearest.
+  Stations choose(const control::PitJob& job, const PitShape& pit, const Pose& X_WB, double rise,
+                  const control::SurfaceView& surface) const {
+    const std::vector<Vec2>& polygon = job.area.polygon;
+    Vec2 longest = Vec2::Zero();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+      if (edge.norm() > longest.norm()) longest = edge;
+    }
+    const double along = std::atan2(longest.y(), longest.x());
+    const Digger digger{reach_, pit.ground() + rise + arm_.X_BS().translation().z(),
+                        arm_.X_BS().translation().x()};
+    Stations best;
+    std::array<double, 4> least{};
+    for (int i = 0; i < 4; ++i) {
+      Stations one = find_stations(job, pit, digger, lanes(job, pit, along + i * kPi / 2));
+      std::vector<control::JobFault> faults;
+      check_stations(job, one, {arm_, rise}, surface, faults);
+      const Vec2 start = X_WB.translation().head<2>();
+      const double away = one.stations.empty() ? 1e9 : (one.stations.front().at.p - start).norm();
+      // A tenth of a bucket is no reason for another axis.
+      const std::array<double, 4> cost = {std::round(one.lost / 0.1),
+                                          static_cast<double>(faults.size()),
+                                          static_cast<double>(one.stations.size()), away};
+      if (i > 0 && !(cost < least)) continue;
+      best = std::move(one);
+      least = cost;
+    }
+    return best;
+  }
+
+  /// Counts the cuts of each station on untouched ground. A strip that a station before it digs in
+  /// part counts at both.
+  void count_cuts(const control::PitJob& job, const PitShape& pit, double rise,
+                  const control::SurfaceView& surface, control::JobPlan& plan) const {
+    for (control::JobStation& one : plan.stations)
+      one.cuts = static_cast<std::int64_t>(
+          cut_fan(job, pit, reach_, station_pose(one.at, rise, surface), surface).size());
+  }
+
+  const control::ArmKinematics arm_;
+  const ArmReach reach_;
+};
+
+}  // namespace
+
+control::MakeJobPlanner job_planners() {
+  return [](const scene::Machine& machine) -> std::unique_ptr<control::JobPlanner> {
+    return std::make_unique<PitPlanner>(machine);
+  };
+}
+
+}  // namespace navvy::earthwork

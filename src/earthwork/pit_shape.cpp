@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "earthwork/pit_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace navvy::earthwork {
+
+PitShape::PitShape(const control::PitJob& job, const control::SurfaceView& surface)
+    : terrain_(surface.terrain()),
+      design_(heightfield::design_of_area(job.area, surface.terrain(), "")) {
+  const Vec2 corner = job.area.polygon.front();
+  const Vec2i column = terrain_.column_at(corner.x(), corner.y());
+  ground_ = terrain_.start_height(column.x(), column.y());
+  lowest_ = ground_ - job.area.depth;
+  rim_ = ground_;
+  const heightfield::CellRect& r = design_.rect;
+  for (int iy = r.y0; iy < r.y1; ++iy)
+    for (int ix = r.x0; ix < r.x1; ++ix)
+      if (!std::isnan(design_.at(ix, iy))) rim_ = std::max(rim_, terrain_.start_height(ix, iy));
+}
+
+double PitShape::floor(const Vec2& p) const {
+  const Vec2i column = terrain_.column_at(p.x(), p.y());
+  const heightfield::CellRect& r = design_.rect;
+  if (column.x() < r.x0 || column.x() >= r.x1 || column.y() < r.y0 || column.y() >= r.y1)
+    return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(design_.at(column.x(), column.y()));
+}
+
+std::vector<PitColumn> PitShape::columns() const {
+  std::vector<PitColumn> out;
+  const heightfield::CellRect& r = design_.rect;
+  for (int iy = r.y0; iy < r.y1; ++iy)
+    for (int ix = r.x0; ix < r.x1; ++ix) {
+      const auto z = static_cast<double>(design_.at(ix, iy));
+      if (std::isnan(z)) continue;
+      out.push_back({terrain_.origin() + terrain_.cell() * Vec2(ix + 0.5, iy + 0.5), z,
+                     terrain_.height(ix, iy)});
+    }
+  return out;
+}
+
+control::JobVolume PitShape::volume() const {
+  control::JobVolume out;
+  const heightfield::CellRect& r = design_.rect;
+  for (int iy = r.y0; iy < r.y1; ++iy)
+    for (int ix = r.x0; ix < r.x1; ++ix) {
+      const auto z = static_cast<double>(design_.at(ix, iy));
+      if (std::isnan(z)) continue;
+      const double start = std::max(0.0, terrain_.start_height(ix, iy) - z);
+      out.design += start * column_area();
+      // Soil that lies higher than the ground was is not part of the commanded volume.
+      out.left += std::clamp(terrain_.height(ix, iy) - z, 0.0, start) * column_area();
+    }
+  return out;
+}
+
+bool PitShape::is_near(const Vec2& p, double range) const {
+  const int n = static_cast<int>(std::ceil(range / cell()));
+  for (int y = -n; y <= n; ++y)
+    for (int x = -n; x <= n; ++x)
+      if (std::hypot(x, y) * cell() <= range && !std::isnan(floor(p + cell() * Vec2(x, y))))
+        return true;
+  return false;
+}
+
+}  // namespace navvy::earthwork

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places of a job's spoil. Private to earthwork.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "control/arm_kinematics.h"
+#include "control/job_planner.h"
+#include "control/surface.h"
+
+namespace navvy::earthwork {
+
+/// Returns the points of a job's windrow, half a metre apart; the one point of a heap.
+std::vector<Vec2> spoil_points(const control::PitJob& job);
+
+/// Returns the point of the windrow at which the spoil is lowest among those that the arm reaches
+/// with the swing axis at X_WS; nothing if it reaches none.
+std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,
+                                const Pose& X_WS, const control::SurfaceView& surface);
+
+}  // namespace navvy::earthwork

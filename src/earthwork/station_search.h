@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stations of a pit along one axis. Private to earthwork.
+#pragma once
+
+#include <vector>
+
+#include "control/job_planner.h"
+#include "earthwork/arm_reach.h"
+#include "earthwork/pit_shape.h"
+
+namespace navvy::earthwork {
+
+/// Distance from the swing axis at which the face ahead of a machine begins [m].
+inline constexpr double kFaceBegins = control::kNearestDig + 0.3;
+/// Sector ahead of the machine in which it digs, to both sides [rad].
+inline constexpr double kSector = radians(75);
+
+/// Returns the slope of the face that is left ahead of a machine [-]: that of the batter, at most
+/// 1:1.
+double face_slope(const control::PitJob& job);
+
+/// A line along which a machine backs while it digs.
+struct RetreatAxis {
+  Vec2 through = Vec2::Zero();  ///< a point of the line in W [m]
+  double heading = 0;           ///< heading of the machine, which faces the soil [rad]
+  double half_width = 0;        ///< columns farther aside belong to other axes [m]
+};
+
+/// Stations along axes, with the columns that none of them reaches.
+struct Stations {
+  std::vector<control::JobStation> stations;
+  std::vector<PitColumn> unreachable;
+  double lost = 0;  ///< volume of `unreachable` [m3]
+};
+
+/// Machine of a search.
+struct Digger {
+  const ArmReach& reach;
+  double ring = 0;        ///< height of the swing ring in W on the ground of the pit [m]
+  double axle_ahead = 0;  ///< distance of the swing axis ahead of the rear axle [m]
+};
+
+/// Returns the stations from which all columns of a pit are dug, one axis after the other. At each
+/// station the machine stands as far back as the farthest soil that is left allows, so that few
+/// stations suffice.
+Stations find_stations(const control::PitJob& job, const PitShape& pit, const Digger& digger,
+                       const std::vector<RetreatAxis>& axes);
+
+}  // namespace navvy::earthwork

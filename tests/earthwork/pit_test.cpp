@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pits from several stations: plans, faults that show before a run, and whole pits in a closed
+// loop; geometry only.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/activities/dig/dig_area.h"
+#include "control/dig_rig.h"
+#include "control/ew180_like.h"
+#include "control/reach.h"
+#include "core/saved_state.h"
+#include "earthwork/pit_checks.h"
+#include "earthwork/pit_planner.h"
+#include "log_lines.h"
+
+namespace navvy::earthwork {
+namespace {
+
+using control::DigArea;
+using control::JobPlan;
+
+/// Plans straight ahead on ground that is drivable everywhere.
+class StraightPlanner final : public control::PathPlanner {
+ public:
+  void look(const control::SurfaceView&) override {}
+  double clearance(const control::PlanePose&, double range) const override { return range; }
+  std::optional<control::Path> plan(const control::PathQuery& query) const override {
+    return control::Path(query.start, {{(query.goal.p - query.start.p).norm(), 0}});
+  }
+};
+
+control::Planners planners() {
+  return {[](const scene::Machine&) { return std::make_unique<StraightPlanner>(); },
+          job_planners()};
+}
+
+/// A pit with a rectangular floor about (x, 0), and a windrow along its side.
+DigArea pit(double length, double width, double depth, double batter = 45, double x = 0) {
+  DigArea out;
+  const double a = 0.5 * length, b = 0.5 * width;
+  out.polygon = {{x - a, -b}, {x + a, -b}, {x + a, b}, {x - a, b}};
+  out.depth = depth;
+  out.batter = radians(batter);
+  out.dump_at = Vec2(-10, 6.4);
+  out.dump_to = Vec2(-1, 6.4);
+  out.has_dump_to = true;
+  return out;
+}
+
+JobPlan plan_of(const DigArea& step, const Pose& X_WB = make_pose(-10.5, 0, 0)) {
+  const heightfield::Ground ground = control::testing::flat_ground();
+  const auto planner = job_planners()(control::testing::ew180_like());
+  return planner->plan(step.job(), X_WB, control::GroundSurfaceView(ground));
+}
+
+/// Returns the text of all faults of a plan.
+std::string text_of(const JobPlan& plan) {
+  std::string out;
+  for (const control::JobFault& one : plan.faults)
+    out += one.part + ": " + one.value + ": " + one.rule + "; " + one.remedy + "\n";
+  return out;
+}
+
+TEST(PitPlan, DigsTheJobOfRecordFromTwoStationsOnItsAxis) {
+  const JobPlan plan = plan_of(pit(4, 3, 1.5));
+  EXPECT_EQ(text_of(plan), "");
+  // 12 m2 of floor, sides of 1:1 that end in quarter cones: 18 + 7 x 1.125 x 2 + pi 1.5^3 / 3.
+  EXPECT_NEAR(plan.volume, 18 + 2 * 7 * 1.125 + kPi * 1.125, 0.4);
+  ASSERT_EQ(plan.stations.size(), 2u);
+  double sum = 0;
+  for (const control::JobStation& one : plan.stations) {
+    EXPECT_NEAR(one.at.p.y(), 0, 0.11);  // the axis is the middle of the columns
+    EXPECT_NEAR(std::remainder(one.at.yaw, 2 * kPi), 0, 1e-9);
+    EXPECT_GT(one.cuts, 5);
+    sum += one.volume;
+  }
+  EXPECT_LT(plan.stations[1].at.p.x(), plan.stations[0].at.p.x() - 2) << "the machine backs";
+  // Without soil below the least depth that decides a station.
+  EXPECT_NEAR(sum, plan.volume, 0.06 * plan.volume);
+}
+
+TEST(PitPlan, DigsALongPitFromMoreStations) {
+  const JobPlan plan = plan_of(pit(6, 3, 1.5, 45, 3));
+  EXPECT_EQ(text_of(plan), "");
+  EXPECT_GE(plan.stations.size(), 3u);
+}
+
+TEST(PitPlan, DependsOnItsArgumentsAlone) {
+  const heightfield::Ground ground = control::testing::flat_ground();
+  const control::GroundSurfaceView surface(ground);
+  const auto used = job_planners()(control::testing::ew180_like());
+  used->plan(pit(2, 2, 0.5).job(), make_pose(-10, 0, 0), surface);
+  const auto fresh = job_planners()(control::testing::ew180_like());
+  const control::PitJob job = pit(4, 3, 1.5).job();
+  const JobPlan a = used->plan(job, make_pose(-10.5, 0, 0), surface),
+                b = fresh->plan(job, make_pose(-10.5, 0, 0), surface);
+  ASSERT_EQ(a.stations.size(), b.stations.size());
+  for (std::size_t i = 0; i < a.stations.size(); ++i)
+    EXPECT_EQ(a.stations[i].at.p, b.stations[i].at.p);
+}
+
+TEST(PitPlan, NamesSpoilInsideTheDig) {
+  DigArea step = pit(4, 3, 1.5);
+  step.dump_at = Vec2(-3, 3.2);
+  EXPECT_NE(text_of(plan_of(step)).find("dump_at_m: (-3.00 , 3.20 ): spoil must fall 0.50 m clear"),
+            std::string::npos)
+      << text_of(plan_of(step));
+}
+
+TEST(PitPlan, NamesSpoilOutOfReach) {
+  DigArea step = pit(4, 3, 1.5);
+  step.has_dump_to = false;
+  step.dump_at = Vec2(9, 9);
+  EXPECT_NE(text_of(plan_of(step)).find("the bucket can be opened nowhere on the windrow"),
+            std::string::npos)
+      << text_of(plan_of(step));
+}
+
+TEST(PitPlan, NamesSidesThatAreSteeperThanTheSoilStands) {
+  // Vertical, 3.5 m deep: Culmann's height of loam is 4 c / (rho g) cos phi / (1 - sin phi) = 2.3
+  // m.
+  const std::string text = text_of(plan_of(pit(4, 3, 3.5, 90)));
+  EXPECT_NE(text.find("batter_deg: 90.00 deg: 'loam' stands at that angle up to 2.29 m"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("at most "), std::string::npos);
+}
+
+TEST(PitPlan, NamesSoilThatNoStationReaches) {
+  // 7 m deep: the arm reaches 5 m below the ground.
+  const std::string text = text_of(plan_of(pit(4, 3, 7, 30)));
+  EXPECT_NE(text.find("no station reaches "), std::string::npos) << text;
+}
+
+TEST(PitChecks, SoilStandsAtItsAngleOfFrictionAtAnyHeight) {
+  const scene::Soil loam;
+  EXPECT_TRUE(std::isinf(standing_height(loam, loam.friction_angle)));
+  EXPECT_GT(standing_height(loam, radians(45)), standing_height(loam, radians(90)));
+}
+
+/// Ground in a pit compared with its design, over the columns of the design.
+struct PitMeasure {
+  double volume_error = 0, over_rms = 0, left = 0;
+};
+PitMeasure measure(const heightfield::Ground& ground, const DigArea& step) {
+  const heightfield::DesignSurface design = heightfield::design_of_area(*step.area(), ground, "");
+  const double square = ground.cell() * ground.cell();
+  double wanted = 0, dug = 0, over = 0, columns = 0;
+  PitMeasure out;
+  for (int iy = design.rect.y0; iy < design.rect.y1; ++iy)
+    for (int ix = design.rect.x0; ix < design.rect.x1; ++ix) {
+      const auto z = static_cast<double>(design.at(ix, iy));
+      if (std::isnan(z)) continue;
+      ++columns;
+      wanted += (ground.start_height(ix, iy) - z) * square;
+      dug += (ground.start_height(ix, iy) - ground.height(ix, iy)) * square;
+      over += std::pow(std::max(0.0, z - ground.height(ix, iy)), 2);
+      out.left += std::max(0.0, ground.height(ix, iy) - z) * square;
+    }
+  out.volume_error = dug / wanted - 1;
+  out.over_rms = std::sqrt(over / columns);
+  return out;
+}
+
+control::testing::DigRig rig_of(const DigArea& step, const Pose& X_WM) {
+  scene::Program program;
+  program.steps = {step};
+  return {control::testing::ew180_like(), program, X_WM, planners()};
+}
+
+TEST(DigArea, DigsAPitFromOneStation) {
+  const LogLines log;
+  const DigArea step = pit(2, 2, 0.6);
+  control::testing::DigRig rig = rig_of(step, make_pose(-9, 0, 0));
+  ASSERT_TRUE(rig.run(900)) << rig.op.phase() << "\n" << log.text();
+  const PitMeasure measured = measure(rig.ground, step);
+  std::printf("volume %+.3f, over-dig rms %.3f m, left %.2f m3, %zu cycles, %.0f s\n",
+              measured.volume_error, measured.over_rms, measured.left, rig.cycles.size(), rig.time);
+  EXPECT_NEAR(measured.volume_error, 0, 0.12);  // a step that is done leaves at most 15 %
+  EXPECT_LE(measured.over_rms, 0.1);            // the job of record
+  // No more cycles than twice the loads of the volume.
+  EXPECT_LE(rig.cycles.size(), 30u);
+}
+
+TEST(DigArea, BacksFromStationToStation) {
+  const LogLines log;
+  // The job of record.
+  const DigArea step = pit(4, 3, 1.5);
+  control::testing::DigRig rig = rig_of(step, make_pose(-10.5, 0, 0));
+  ASSERT_TRUE(rig.run(3000)) << rig.op.phase() << "\n" << log.text();
+  const PitMeasure measured = measure(rig.ground, step);
+  std::printf("volume %+.3f, over-dig rms %.3f m, left %.2f m3, %zu cycles, %.0f s\n",
+              measured.volume_error, measured.over_rms, measured.left, rig.cycles.size(), rig.time);
+  EXPECT_NEAR(measured.volume_error, 0, 0.05);  // the job of record
+  EXPECT_LE(measured.over_rms, 0.1);            // the job of record
+  const std::vector<control::Measurement>& account = rig.op.reports().back().measurements;
+  const auto stations = std::find_if(account.begin(), account.end(),
+                                     [](const auto& one) { return one.name == "stations"; });
+  ASSERT_NE(stations, account.end());
+  EXPECT_GE(stations->value, 2);
+}
+
+TEST(DigArea, ResumesBitIdenticallyInACut) {
+  const DigArea step = pit(2, 2, 0.4);
+  control::testing::DigRig whole = rig_of(step, make_pose(-9, 0, 0)),
+                           resumed = rig_of(step, make_pose(-9, 0, 0));
+  while (whole.cycles.size() < 2 || whole.op.phase() != "drag") whole.step();
+  const std::vector<char> bytes = saved(whole);
+  load_saved(bytes, resumed);
+  EXPECT_EQ(resumed.digest(), whole.digest());
+  for (int i = 0; i < 4000; ++i) {
+    whole.step();
+    resumed.step();
+  }
+  EXPECT_EQ(resumed.digest(), whole.digest());
+}
+
+}  // namespace
+}  // namespace navvy::earthwork
