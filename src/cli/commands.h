@@ -24,6 +24,10 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
 void add_map(CLI::App& app, Action& action);
 /// Adds `navvy check`, which reports errors in input files.
 void add_check(CLI::App& app, Action& action);
+/// Adds `navvy score`, which prints the score of a run.
+void add_score(CLI::App& app, Action& action);
+/// Adds `navvy compare`, which compares the scores of two runs.
+void add_compare(CLI::App& app, Action& action);
 /// Adds `navvy devices`, which lists the OpenCL devices.
 void add_devices(CLI::App& app, Action& action);
 /// Adds `navvy soils`, which lists the shipped soils, or the values of one soil.

@@ -24,6 +24,8 @@ enum ExitCode {
   kOutOfTolerance = 7,
   /// An event occurred that the scene forbids. All results were written.
   kForbidden = 8,
+  /// All programs were completed, but the run missed a goal of the scene. All results were written.
+  kMissedGoal = 9,
   /// A signal (Ctrl-C, SIGTERM, SIGHUP) or the loss of the controller ended the run. Results up to
   /// then are complete.
   kInterrupted = 130

@@ -32,7 +32,8 @@ int import(const Options& options) {
 void add_import(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "import", "write a machine of SDF or URDF as one of Navvy, with wheels and a drive");
+      "import",
+      "write a machine of SDF or URDF as one of Navvy, with wheels, drive, arm and bucket");
   command->add_option("file", options->file, "SDF or URDF file of one machine")->required();
   command->add_option("--out", options->import.folder, "folder for model.sdf, meshes and IMPORT.md")
       ->required();
@@ -40,6 +41,8 @@ void add_import(CLI::App& app, Action& action) {
       ->add_option("--mass-from-density", options->import.density,
                    "density [kg/m3] by which links with a placeholder for a mass get one")
       ->check(CLI::Range(1.0, 25000.0));
+  command->add_option("--masses", options->import.masses,
+                      "file with lines link,mass_kg that replace masses of the file");
   command->callback([options, &action] { action = [options] { return import(*options); }; });
 }
 

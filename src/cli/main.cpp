@@ -140,15 +140,18 @@ int run(int argc, char** argv) {
       "program of it did\n"
       "(see programs in summary.json), 7 `navvy lab` measured a result outside its "
       "tolerance, 8 an event\n"
-      "that the scene forbids (navvy:forbid) ended the run, 130 interrupted (Ctrl-C, SIGTERM, "
-      "SIGHUP, a controller\n"
-      "that went away); above 130 a crash, which is reported.\n"
+      "that the scene forbids (navvy:forbid) ended the run, 9 the run missed a goal of the scene "
+      "(navvy:goals), 130\n"
+      "interrupted (Ctrl-C, SIGTERM, SIGHUP, a controller that went away); above 130 a crash, "
+      "which is reported.\n"
       "docs/README.md lists all pages; docs/reference/scene.md has the elements of scene files.");
   // The chosen subcommand fills the action.
   cli::Action action;
   // The command line is recorded in the folder of a run.
   cli::add_run(app, action, {argv, argv + argc});
   cli::add_check(app, action);
+  cli::add_score(app, action);
+  cli::add_compare(app, action);
   cli::add_import(app, action);
   cli::add_map(app, action);
   cli::add_devices(app, action);

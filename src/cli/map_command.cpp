@@ -19,6 +19,7 @@
 #include "core/printable.h"
 #include "core/sealed.h"
 #include "device/device.h"
+#include "earthwork/pit_planner.h"
 #include "formats/formats.h"
 #include "heightfield/make_ground.h"
 #include "map/map_maker.h"
@@ -144,7 +145,8 @@ map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat&
   require_apart(options, format, reads_of(described, {options.from}));
   // The session restores particles as a run would resume from them.
   device::Device device(options.device);
-  session::Session session(described, device, planner::path_planners());
+  session::Session session(described, device,
+                           control::Planners{planner::path_planners(), earthwork::job_planners()});
   session.load(options.from);
   const sim::World& world = session.world();
   map::MapMaker maker(

@@ -178,12 +178,15 @@ int print_end(const RunOptions& options, const session::Session& session, const 
     std::fprintf(out, "interrupted: %s, at %.6g s\n", end.cause.c_str(), end.time);
   else if (end.reason == run::EndReason::kForbidden)
     std::fprintf(out, "failed: %s\n", printable(end.cause).c_str());
+  else if (end.reason == run::EndReason::kMissedGoal)
+    std::fprintf(out, "%s\n", printable(end.cause).c_str());
   else
     print_programs(out, session);
   if (!options.quiet) print_pictures(out, end);
   std::fprintf(out, "results: %s/summary.json\n", printable(options.simulation.folder).c_str());
   if (end.reason == run::EndReason::kInterrupted) return kInterrupted;
   if (end.reason == run::EndReason::kForbidden) return kForbidden;
+  if (end.reason == run::EndReason::kMissedGoal) return kMissedGoal;
   if (end.snapshot_missed) return kFile;
   // A duration on the command line asks for no more than that: a program that it cuts off is
   // reported, and no failure.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/saved_state.h"
+#include "earthwork/pit_planner.h"
 #include "planner/map_path_planner.h"
 #include "sensor/make_sensors.h"
 
@@ -24,8 +25,9 @@ void keep_context(const std::string& choice) {
 
 LiveSession::LiveSession(scene::Scene scene, const Options& options) : device_(options.device) {
   // Samplers are added before any state is loaded, as a state contains theirs.
-  session_ =
-      std::make_unique<session::Session>(std::move(scene), device_, planner::path_planners());
+  session_ = std::make_unique<session::Session>(
+      std::move(scene), device_,
+      control::Planners{planner::path_planners(), earthwork::job_planners()});
   for (std::unique_ptr<sim::Sampler>& one : sensor::make_sensors(session_->world()))
     session_->add(std::move(one));
   for (const std::string& link : options.watch) session_->watch(link);

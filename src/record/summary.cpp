@@ -8,6 +8,8 @@
 #include "heightfield/design_surface.h"
 #include "record/earthwork.h"
 #include "record/program_list.h"
+#include "record/score.h"
+#include "record/score_json.h"
 #include "sensor/sensor_output.h"
 #include "sim/world_terrain.h"
 
@@ -200,7 +202,7 @@ void add_programs(const session::Session& session, const std::string& status, js
         {"event", event->event}, {"reason", event->reason}, {"time_s", event->time}};
 }
 
-/// Adds the shape of the ground to `out`.
+/// Adds the shape of the ground and the score to `out`.
 void add_ground(const session::Session& session, const sim::ActivePlaces& active, json& out) {
   const sim::World& world = session.world();
   const Earthwork earth = measure_earthwork(world, active.on_ground);
@@ -212,6 +214,11 @@ void add_ground(const session::Session& session, const sim::ActivePlaces& active
                                 {"spoil_kg", earth.soils[i].spoil}});
   if (const heightfield::DesignSurface* design = session.design())
     out["design"] = design_comparison(world, active, *design);
+  const Score score = measure_score(session, active, earth);
+  out["score"] = score_json(score, world.description());
+  // Absent in a scene without goals.
+  if (json goals = goal_list(judge(score, world.description().goals)); !goals.empty())
+    out["goals"] = goals;
 }
 
 /// Adds energy, forces and the solver's counts to `out`.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "earthwork/pit_planner.h"
 #include "planner/map_path_planner.h"
 #include "record/earthwork.h"
 #include "session/session.h"
@@ -227,7 +228,8 @@ void note_end(const session::Session& session, EnergyComparison& out) {
 Motion run_with_soil(const scene::Scene& scene, const Subject& subject, device::Device& device,
                      const std::function<void(double)>& progress, EnergyComparison& out,
                      std::vector<Vec3>& path) {
-  session::Session session(scene, device, planner::path_planners());
+  session::Session session(scene, device,
+                           control::Planners{planner::path_planners(), earthwork::job_planners()});
   Meter meter(session.world().machines().at(subject.machine), subject.joints, *subject.bucket);
   const auto joints = repeated_handles(session.world());
   Motion motion = {moments(session.world(), joints)};

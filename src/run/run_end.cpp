@@ -15,6 +15,8 @@ const char* name_of(EndReason reason) {
       return "end_requested";
     case EndReason::kForbidden:
       return "forbidden";
+    case EndReason::kMissedGoal:
+      return "missed_goal";
     case EndReason::kInterrupted:
       break;
   }

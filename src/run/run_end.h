@@ -7,7 +7,7 @@
 namespace navvy::run {
 
 /// Reason why a run ended. If several reasons apply, the first one in this order is reported:
-/// kInterrupted, kForbidden, kComplete, kFellShort, then one of the others.
+/// kInterrupted, kForbidden, kMissedGoal, kComplete, kFellShort, then one of the others.
 enum class EndReason {
   /// All programs were completed, and no machine fell over.
   kComplete,
@@ -20,15 +20,17 @@ enum class EndReason {
   /// A signal interrupted the run, or its controller disconnected.
   kInterrupted,
   /// An event occurred that the scene forbids.
-  kForbidden
+  kForbidden,
+  /// All programs were completed, but the run missed a goal of the scene.
+  kMissedGoal
 };
 
 /// Result of a run.
 struct RunEnd {
   /// Reason why the run ended.
   EndReason reason = EndReason::kEndRequested;
-  /// Cause of an interruption, or the forbidden event, as text for the user; empty for other
-  /// reasons.
+  /// Cause of an interruption, the forbidden event or the missed goals, as text for the user; empty
+  /// for other reasons.
   std::string cause;
   /// Simulated time at the end [s].
   double time = 0;
@@ -43,7 +45,7 @@ struct RunEnd {
 };
 
 /// Returns the name of an end reason: "complete", "fell_short", "out_of_time", "end_requested",
-/// "interrupted" or "forbidden".
+/// "interrupted", "forbidden" or "missed_goal".
 const char* name_of(EndReason reason);
 /// Returns the value of "status" in summary.json for a run with this end reason: "finished",
 /// "incomplete", "interrupted" or "failed".

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/math.h"
+#include "earthwork/pit_planner.h"
 #include "planner/map_path_planner.h"
 #include "record/map_recorder.h"
 #include "run/slice_check.h"
@@ -79,7 +80,8 @@ void add_lines(std::vector<std::string>& lines, const std::string& text) {
 SceneCheck check_scene(const scene::Scene& scene) {
   SceneCheck out;
   // The test that a run makes before it starts.
-  out.faults = session::check_programs(scene, planner::path_planners());
+  out.faults = session::check_programs(scene, {planner::path_planners(), earthwork::job_planners()},
+                                       &out.notes);
   for (Fault& fault : record::check_records(scene)) out.faults.push_back(std::move(fault));
   for (Fault& fault : check_slices(scene)) out.faults.push_back(std::move(fault));
   // The machines settle for a second on resting soil, without a device.
@@ -91,6 +93,8 @@ SceneCheck check_scene(const scene::Scene& scene) {
   for (std::size_t m = 0; m < start.standing.size(); ++m)
     if (start.standing[m].free)
       out.notes.push_back(standing(scene.machines[m].name, start.standing[m], start.falling[m]));
+    else if (!start.without_wheels[m].empty())
+      out.notes.push_back("'" + scene.machines[m].name + "' " + start.without_wheels[m]);
   // The check of the programs has reported a ground that cannot be made.
   for (Fault& fault : start.faults)
     if (std::none_of(out.faults.begin(), out.faults.end(),

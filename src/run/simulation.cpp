@@ -10,6 +10,7 @@
 #include "core/saved_state.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
+#include "earthwork/pit_planner.h"
 #include "heightfield/change_follower.h"
 #include "planner/map_path_planner.h"
 #include "record/camera_pictures.h"
@@ -17,6 +18,7 @@
 #include "record/rates_note.h"
 #include "record/recorder.h"
 #include "record/run_folder.h"
+#include "record/score.h"
 #include "record/summary.h"
 #include "run/start_checks.h"
 #include "sensor/make_sensors.h"
@@ -42,6 +44,17 @@ void reseed(scene::Scene& scene, std::uint64_t seed) {
   for (scene::GroundFeature& feature : scene.ground.features)
     if (feature.seed == scene.seed) feature.seed = seed;
   scene.seed = seed;
+}
+
+/// Returns the goals of the scene that the run misses, as a text; empty if it meets them all.
+std::string missed_goals(const session::Session& session) {
+  const scene::Goals& goals = session.world().description().goals;
+  std::string out;
+  // The score costs a pass over the particles.
+  if (!goals.any()) return out;
+  for (const record::GoalResult& one : record::judge(record::measure_score(session), goals))
+    if (!one.met) out += (out.empty() ? "missed goal: " : "; ") + one.text();
+  return out;
 }
 
 }  // namespace
@@ -82,8 +95,9 @@ struct Simulation::State {
 
 /// Builds a session. Samplers are added before any state is loaded, as a state contains theirs.
 std::unique_ptr<session::Session> Simulation::State::make_session(scene::Scene scene) const {
-  auto out = std::make_unique<session::Session>(std::move(scene), *device, planner::path_planners(),
-                                                options.make_engine);
+  auto out = std::make_unique<session::Session>(
+      std::move(scene), *device,
+      control::Planners{planner::path_planners(), earthwork::job_planners()}, options.make_engine);
   for (std::unique_ptr<sim::Sampler>& one : sensor::make_sensors(out->world()))
     out->add(std::move(one));
   if (options.set_up) options.set_up(*out);
@@ -206,16 +220,19 @@ RunEnd Simulation::State::end_now(bool requested, const std::string& interrupted
   RunEnd end;
   end.time = world().time();
   end.cause = interrupted_by;
-  if (!interrupted_by.empty())
+  if (!interrupted_by.empty()) {
     end.reason = EndReason::kInterrupted;
-  else if (session->forbidden())
-    end.reason = EndReason::kForbidden, end.cause = session->forbidden()->text();
-  else if (session->complete())
-    end.reason = EndReason::kComplete;
-  else if (session->fell_short())
+  } else if (session->forbidden()) {
+    end.reason = EndReason::kForbidden;
+    end.cause = session->forbidden()->text();
+  } else if (session->complete()) {
+    end.cause = missed_goals(*session);
+    end.reason = end.cause.empty() ? EndReason::kComplete : EndReason::kMissedGoal;
+  } else if (session->fell_short()) {
     end.reason = EndReason::kFellShort;
-  else
+  } else {
     end.reason = requested ? EndReason::kEndRequested : EndReason::kOutOfTime;
+  }
   end.snapshot_missed = snapshot_due;
   return end;
 }

@@ -139,6 +139,39 @@ TEST_F(Ending, ReportsNoProgramAsRunningWhenTheControllerEndsTheRun) {
   EXPECT_EQ(complained().find("running"), std::string::npos) << complained();
 }
 
+TEST_F(Ending, HasItsOwnStatusWhenAGoalIsMissed) {
+  const std::string path = (directory_ / "goal.sdf").string();
+  std::ofstream(path)
+      << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"goal\">\n"
+         "<navvy:soil ref=\"loam\"/><navvy:ground><size_m>8 8</size_m></navvy:ground>\n"
+         "<navvy:design><area><polygon_m>2 2 3 2 3 3 2 3</polygon_m><depth_m>0.5</depth_m></area>"
+         "</navvy:design>\n<navvy:solver><cell_m>0.2</cell_m></navvy:solver>\n"
+         "<include><uri>model://robot</uri><pose>0 0 0 0 0 0</pose><navvy:program>"
+      << kWait
+      << "</navvy:program></include>\n<navvy:goals><completion>0.9</completion>"
+         "<collisions>0</collisions></navvy:goals>\n"
+         "<navvy:recording><duration_s>9</duration_s><settle_s>0.05</settle_s></navvy:recording>"
+         "</world></sdf>\n";
+  EXPECT_EQ(run({path}), 9) << complained();
+  const nlohmann::json written = summary();
+  EXPECT_EQ(written.at("status"), "incomplete");
+  EXPECT_EQ(written.at("message"), "missed goal: completion is 0, wanted is at least 0.9");
+  ASSERT_EQ(written.at("goals").size(), 2u);
+  EXPECT_EQ(written.at("goals")[0].at("met"), false);
+  EXPECT_EQ(written.at("goals")[1].at("met"), true);
+  EXPECT_EQ(written.at("score").at("balance_error_units"), 0);
+  EXPECT_NEAR(written.at("score").at("shape").at("design_cut_m3").get<double>(), 0.5, 1e-6);
+  // The score can be read again, and compared.
+  EXPECT_EQ(ProgramRun::run({"score", out()}), 9) << complained();
+  EXPECT_NE(said().find("goal completion: MISSED, is 0, wanted at least 0.9"), std::string::npos)
+      << said();
+  EXPECT_EQ(ProgramRun::run({"compare", out(), out() + "/summary.json"}), 0) << complained();
+  EXPECT_NE(said().find("shape/completion"), std::string::npos) << said();
+  EXPECT_EQ(ProgramRun::run({"score", path}), 2);
+  EXPECT_NE(complained().find("is not the JSON object of a summary"), std::string::npos)
+      << complained();
+}
+
 TEST_F(Ending, HasItsOwnStatusAfterAForbiddenEvent) {
   const std::string path = (directory_ / "scene.sdf").string();
   std::ofstream(path)
