@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/forward_kinematics.h"
+
 namespace navvy::scene {
 namespace {
 
@@ -17,21 +19,13 @@ constexpr double kDamping = 1e-9;
 // [rad|m] largest change of a position in one iteration.
 constexpr double kLongestMove = 0.3;
 
-Pose motion_of(const Joint& joint, double q) {
-  Pose X = Pose::Identity();
-  if (joint.type == Joint::Type::kRevolute)
-    X.linear() = Eigen::AngleAxisd(q, joint.axis.normalized()).toRotationMatrix();
-  if (joint.type == Joint::Type::kPrismatic) X.translation() = q * joint.axis.normalized();
-  return X;
-}
-
 bool moves(const Joint& joint) {
   return joint.type == Joint::Type::kRevolute || joint.type == Joint::Type::kPrismatic;
 }
 
 /// Returns the gaps of all loops, six values each.
 Eigen::VectorXd gaps_of(const Machine& machine, const std::vector<double>& q) {
-  const std::vector<Pose> X = link_poses(machine, q);
+  const std::vector<Pose> X = forward_kinematics(machine, Pose::Identity(), q);
   Eigen::VectorXd out(6 * static_cast<Eigen::Index>(machine.loops.size()));
   Eigen::Index row = 0;
   for (const LoopJoint& loop : machine.loops) {
@@ -53,28 +47,6 @@ std::vector<std::size_t> free_joints(const Machine& machine, const std::vector<c
 }
 
 }  // namespace
-
-Pose child_in_parent(const Machine& machine, const Joint& joint, double q) {
-  // Child in parent at 0, then the motion in the joint's own frame, which is fixed in the child.
-  const Pose X_MC = machine.links[static_cast<std::size_t>(joint.child)].X_ML;
-  const Pose X_PC0 =
-      joint.parent < 0
-          ? X_MC
-          : machine.links[static_cast<std::size_t>(joint.parent)].X_ML.inverse() * X_MC;
-  return X_PC0 * joint.X_LcJ * motion_of(joint, q) * joint.X_LcJ.inverse();
-}
-
-std::vector<Pose> link_poses(const Machine& machine, const std::vector<double>& q) {
-  std::vector<Pose> X(machine.links.size(), Pose::Identity());
-  // Parents come before their children.
-  for (std::size_t j = 0; j < machine.joints.size(); ++j) {
-    const Joint& joint = machine.joints[j];
-    if (joint.parent < 0) continue;
-    X[static_cast<std::size_t>(joint.child)] =
-        X[static_cast<std::size_t>(joint.parent)] * child_in_parent(machine, joint, q[j]);
-  }
-  return X;
-}
 
 Vec6 loop_gap(const LoopJoint& loop, const Pose& X_BP, const Pose& X_BC) {
   const Pose X = (X_BP * loop.X_LpJ).inverse() * (X_BC * loop.X_LcJ);

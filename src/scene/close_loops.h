@@ -9,14 +9,6 @@
 
 namespace navvy::scene {
 
-/// Returns the pose of the joint's child link in its parent link at joint position `q` [rad|m]. A
-/// fixed or ball joint ignores `q`. A joint of the base counts from the machine's frame.
-Pose child_in_parent(const Machine& machine, const Joint& joint, double q);
-
-/// Returns the poses of all links in the frame of links[0] at the joint positions `q` [rad|m]. Ball
-/// joints are at their initial rotation.
-std::vector<Pose> link_poses(const Machine& machine, const std::vector<double>& q);
-
 /// Returns how far a closing joint is open: the distance [m] that its halves must move and the
 /// angle [rad] that they must turn to meet, in the axes of its parent half. Directions in which the
 /// joint moves freely count as zero. `X_BP` and `X_BC` are the poses of parent and child link in

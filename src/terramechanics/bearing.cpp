@@ -16,7 +16,7 @@ constexpr int kSlices =
     // Slices of the arc ahead of a rim, an even number: within 0.5 % of the integral, 2 % near the
     // slip that ends bulldozing.
     8;
-// Slices of the sunken segment of a side wall: within 0.5 % of the integral.
+// Slices of the sunken segment of a side wall: within 0.1 % of the integral.
 constexpr int kWallSlices = 32;
 constexpr double kNoFriction = 1e-6;
 

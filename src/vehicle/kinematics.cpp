@@ -5,16 +5,11 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scene/close_loops.h"
 
 namespace navvy::vehicle {
 namespace {
 
 using JointType = scene::Joint::Type;
-
-const scene::Link& link_of(const scene::Machine& machine, int index) {
-  return machine.links[static_cast<std::size_t>(index)];
-}
 
 [[noreturn]] void refuse(const scene::Cylinder& cylinder, const std::string& value,
                          const std::string& rule) {
@@ -26,36 +21,6 @@ const scene::Link& link_of(const scene::Machine& machine, int index) {
 }
 
 }  // namespace
-
-Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double q) {
-  return scene::child_in_parent(machine, joint, q);
-}
-
-// Each link follows from its parent's pose.
-std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB,
-                                     const std::vector<double>& q) {
-  std::vector<Pose> poses(machine.links.size(), X_WB);
-  std::vector<char> placed(machine.links.size(), 0);
-  if (poses.empty()) return poses;
-  placed[0] = 1;
-  // Joints may be listed in any order: repeat until no link follows a placed one (one pass for an
-  // ordered tree).
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (std::size_t j = 0; j < machine.joints.size(); ++j) {
-      const scene::Joint& joint = machine.joints[j];
-      if (joint.parent < 0 || joint.child < 0) continue;
-      const auto parent = static_cast<std::size_t>(joint.parent),
-                 child = static_cast<std::size_t>(joint.child);
-      if (!placed[parent] || placed[child]) continue;
-      poses[child] =
-          poses[parent] * joint_pose(machine, joint, j < q.size() ? q[j] : joint.initial);
-      placed[child] = 1;
-      moved = true;
-    }
-  }
-  return poses;
-}
 
 // Cylinders side by side act as one of their summed area.
 double head_area(const scene::Cylinder& cylinder) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forward kinematics of a machine's links, and geometry of its cylinders. Independent of the
-// physics engine.
+// Geometry of a machine's cylinders, beside the forward kinematics of its links
+// (scene/kinematics.h). Independent of the physics engine.
 //
 // Signs: a joint's position is positive by the right-hand rule about its axis. For the pitch joints
 // of an excavator's arm, whose axis is (0,-1,0), positive rotation lifts the link. A cylinder's
@@ -13,20 +13,13 @@
 #include <vector>
 
 #include "core/math.h"
+#include "scene/forward_kinematics.h"
 #include "scene/machine.h"
 
 namespace navvy::vehicle {
 
-/// Returns the pose of the joint's child link in its parent link at joint position `q` [rad|m]. A
-/// fixed or ball joint ignores `q`.
-Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double q);
-
-/// Returns the poses in the world frame of all links of `machine`, in the order of machine.links.
-///
-/// `X_WB` is the pose of the base link, links[0]. `q` has the position of each joint [rad|m];
-/// joints beyond its end are at their initial positions.
-std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB,
-                                     const std::vector<double>& q);
+using scene::forward_kinematics;
+using scene::joint_pose;
 
 /// Geometry of a hydraulic cylinder at one joint position.
 struct CylinderGeometry {

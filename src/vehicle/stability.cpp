@@ -6,31 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/plane_hull.h"
+
 namespace navvy::vehicle {
 namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// Returns the corners of the convex hull, counter-clockwise, by the monotone chain algorithm.
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  std::vector<Vec2> hull;
-  // Once along the lower side, once back along the upper one. A right turn is no corner.
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t from = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= from + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 /// Support point of a machine with its force in the last step.
 struct Bearing {
@@ -206,8 +187,9 @@ std::vector<Vec3> all_support_points(const scene::Machine& machine, const Placed
 
 // Inside, the nearest edge counts; outside, the distance to the polygon.
 double support_margin(std::vector<Vec2> support_points, const Vec2& p) {
-  const std::vector<Vec2> hull =
-      support_points.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(support_points));
+  const std::vector<Vec2> hull = support_points.size() < 3
+                                     ? std::vector<Vec2>{}
+                                     : geometry::plane_hull(std::move(support_points));
   if (hull.size() < 3) return 0;
   bool inside = true;
   double least = std::numeric_limits<double>::infinity();
@@ -226,8 +208,9 @@ double support_margin(std::vector<Vec2> support_points, const Vec2& p) {
 TippingLoad tipping_load(std::vector<Vec2> support_points, const Vec2& centre, double mass,
                          const Vec2& load_point) {
   TippingLoad out;
-  const std::vector<Vec2> hull =
-      support_points.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(support_points));
+  const std::vector<Vec2> hull = support_points.size() < 3
+                                     ? std::vector<Vec2>{}
+                                     : geometry::plane_hull(std::move(support_points));
   if (hull.size() < 3) return {0, Vec2::Zero()};
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
@@ -244,8 +227,9 @@ TippingLoad tipping_load(std::vector<Vec2> support_points, const Vec2& centre, d
 double tipping_factor(std::vector<Vec2> support_points, double ground, const Vec2& centre,
                       double weight, const Vec3& p, const Vec3& f) {
   double out = std::numeric_limits<double>::infinity();
-  const std::vector<Vec2> hull =
-      support_points.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(support_points));
+  const std::vector<Vec2> hull = support_points.size() < 3
+                                     ? std::vector<Vec2>{}
+                                     : geometry::plane_hull(std::move(support_points));
   if (hull.size() < 3) return 0;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
