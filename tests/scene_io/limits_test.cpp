@@ -244,11 +244,13 @@ TEST(Limits, MeshesOfShapesAreReadOnceAndCheckedBeforeARun) {
   EXPECT_TRUE(refused(world_text(model(moves, "collision", flat)), "the mesh needs at least 4"));
   const Faults standing = read(world_text(model(stands, "collision", flat)));
   EXPECT_FALSE(standing.has_errors()) << messages(standing);
-  EXPECT_TRUE(refused(world_text(model(stands, "visual", empty)), "the mesh needs at least 1"));
+  EXPECT_TRUE(refused(world_text(model(stands, "visual", empty)),
+                      "'0 triangles': a mesh needs at least one triangle"));
   EXPECT_TRUE(refused(world_text(model(stands, "visual", bad)), "bad.obj:1: error"));
   std::string many;
   for (std::size_t i = 0; i <= limits::kHullVertices; ++i)
     many += "v 0 0 " + std::to_string(i) + "\n";
+  many += "v 1 0 0\nf 1 2 -1\n";
   write_file_atomically(flat, many);
   EXPECT_TRUE(refused(world_text(model(moves, "collision", flat)), "may have at most 50000"));
   // Visuals collide if no collision is given.

@@ -65,9 +65,7 @@ int MeshBuilder::add_material(const MeshMaterial& material) {
 }
 
 TriangleMesh MeshBuilder::finish() {
-  if (mesh_.triangles.empty())
-    refuse_mesh(path_, 0, "0 triangles", "a mesh needs at least one triangle with an area",
-                "export the mesh with its faces");
+  if (mesh_.triangles.empty()) refuse_empty_mesh(path_);
   if (mesh_.materials.empty()) mesh_.material_of.clear();
   require_valid(mesh_, path_);
   return std::move(mesh_);

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "core/error.h"
 #include "geometry/triangle_mesh.h"
 
 namespace navvy::geometry {
@@ -15,6 +16,16 @@ namespace navvy::geometry {
 [[noreturn]] void refuse_mesh(const std::string& path, int line, const std::string& value,
                               const std::string& rule,
                               const std::string& remedy = "export the mesh again");
+
+/// Reports a mesh file without triangles; never returns. Defined here because the slim build, which
+/// reads OBJ files only, has no mesh_builder.cpp.
+/// @throws InputError, always
+[[noreturn]] inline void refuse_empty_mesh(const std::string& path) {
+  throw InputError(
+      Fault{Fault::Severity::kError, path, 0, "", "0 triangles",
+            "a mesh needs at least one triangle with an area, and this file shows none",
+            "export the mesh with its faces, or name another file"});
+}
 
 /// Returns the bytes of a mesh file. @throws FileError if it does not exist, InputError if it is
 /// too large or cannot be read

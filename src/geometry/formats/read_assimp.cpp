@@ -57,20 +57,22 @@ void check_whole(const std::string& path, const std::string& ending, const std::
                 "copy or export it again");
   if (ending != ".stl") return;
   const std::size_t text = bytes.find_first_not_of(" \t\r\n");
-  const bool ascii = text != std::string::npos && bytes.compare(text, 5, "solid") == 0 &&
-                     bytes.find("facet") != std::string::npos;
-  if (ascii) {
+  const bool solid = text != std::string::npos && bytes.compare(text, 5, "solid") == 0;
+  if (solid && bytes.find("facet") != std::string::npos) {
     if (bytes.find("endsolid") == std::string::npos)
       refuse_mesh(path, lines_of(bytes), "end of the file", "an STL file must end with endsolid",
                   "copy or export it again");
     return;
   }
+  // Binary files hold zeros; this is a text without facets.
+  if (solid && bytes.find('\0') == std::string::npos) refuse_empty_mesh(path);
   // A binary file has a header of 80 bytes, the number of triangles, and 50 bytes for each.
   std::uint32_t count = 0;
   if (bytes.size() < 84)
     refuse_mesh(path, 0, std::to_string(bytes.size()) + " bytes",
                 "a binary STL file has at least 84 bytes", "copy or export it again");
   std::memcpy(&count, bytes.data() + 80, 4);
+  if (count == 0) refuse_empty_mesh(path);
   if (bytes.size() < 84 + std::uint64_t{50} * count)
     refuse_mesh(path, 0, std::to_string(bytes.size()) + " bytes",
                 "its header announces " + std::to_string(count) + " triangles, which take " +
@@ -152,7 +154,11 @@ TriangleMesh read_assimp(const std::string& path) {
   importer.SetIOHandler(new FilesBeside(path));
   // Meshes of robots are meant in the axes of the file, whatever it calls up.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // Of a file without faces the library would make up some that show the nodes.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  if (scene == nullptr && std::strstr(importer.GetErrorString(), "has no faces") != nullptr)
+    refuse_empty_mesh(path);
   if (scene == nullptr || scene->mRootNode == nullptr)
     refuse_mesh(path, 0, "", std::string("cannot be read: ") + importer.GetErrorString());
   Matrix turn = Matrix::Identity();

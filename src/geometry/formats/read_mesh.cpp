@@ -20,6 +20,13 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
+/// Returns the mesh of an OBJ file, which may have vertices alone, as `read_obj` reads it.
+TriangleMesh read_faces(const std::string& path) {
+  TriangleMesh mesh = read_obj(path);
+  if (mesh.triangles.empty()) refuse_empty_mesh(path);
+  return mesh;
+}
+
 }  // namespace
 
 const std::vector<std::string>& mesh_endings() {
@@ -40,12 +47,12 @@ TriangleMesh read_mesh(const std::string& path) {
     throw InputError(Fault{Fault::Severity::kError, path, 0, "mesh", ending,
                            "this build of Navvy reads OBJ files only",
                            "convert the file to OBJ, or install the full program"});
-  return read_obj(path);
+  return read_faces(path);
 #else
   if (ending == ".iv" || ending == ".wrl" || ending == ".vrml") return read_inventor(path);
   if (ending == ".stl" || ending == ".dae" || ending == ".gltf" || ending == ".glb")
     return read_assimp(path);
-  return read_obj(path);
+  return read_faces(path);
 #endif
 }
 
