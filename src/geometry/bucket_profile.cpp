@@ -120,19 +120,14 @@ std::optional<BucketProfile> find_bucket_profile(const TriangleMesh& mesh) {
 }
 
 TriangleMesh shell_of(const BucketProfile& profile) {
-  TriangleMesh out;
   const Vec2 mouth = 0.5 * (profile.points.front() + profile.points.back());
-  for (const double y : {profile.y_high, profile.y_low})
-    for (const Vec2& p : profile.points) out.vertices.emplace_back(p.x(), y, p.y());
-  for (const double y : {profile.y_high, profile.y_low})
-    out.vertices.emplace_back(mouth.x(), y, mouth.y());
-  const int n = static_cast<int>(profile.points.size());
-  for (int i = 0; i + 1 < n; ++i) {
-    out.triangles.push_back({i, n + i + 1, i + 1});
-    out.triangles.push_back({i, n + i, n + i + 1});
-    out.triangles.push_back({2 * n, i, i + 1});
-    out.triangles.push_back({2 * n + 1, n + i + 1, n + i});
+  const auto at = [](const Vec2& p, double y) { return Vec3(p.x(), y, p.y()); };
+  std::vector<Vec3> high, low;
+  for (const Vec2& p : profile.points) {
+    high.push_back(at(p, profile.y_high));
+    low.push_back(at(p, profile.y_low));
   }
+  TriangleMesh out = plate_shell(high, low, {at(mouth, profile.y_high), at(mouth, profile.y_low)});
   // The profile may run either way about the inside.
   const Vec2 inside = mouth - 0.1 * opening(profile) * (profile.points[0] - mouth).norm();
   const Vec3 p(inside.x(), 0.5 * (profile.y_low + profile.y_high), inside.y());

@@ -10,7 +10,8 @@
 namespace navvy::geometry {
 
 /// Side profile of a bucket in a frame with its origin at the bucket's pin and y along the axis
-/// about which it turns.
+/// about which it turns. x and z may point anywhere across that axis; `navvy import` has x forward,
+/// y left and z up, as the machine's.
 struct BucketProfile {
   /// Points (x, z) from the cutting edge along floor and back to the upper edge of the back [m].
   std::vector<Vec2> points;
@@ -31,9 +32,10 @@ TriangleMesh shell_of(const BucketProfile& profile);
 /// Returns what a bucket with this profile holds with a heap of slopes of 1:1 on its mouth [m3].
 double heaped_capacity(const BucketProfile& profile);
 
-/// Returns the unit vectors (x, z) along the floor at the cutting edge, outward, and out of the
-/// mouth.
+/// Returns the unit vector (x, z) along the floor at the cutting edge, outward.
 Vec2 cut_direction(const BucketProfile& profile);
+
+/// Returns the unit vector (x, z) square to the mouth, out of the bucket.
 Vec2 opening(const BucketProfile& profile);
 
 }  // namespace navvy::geometry

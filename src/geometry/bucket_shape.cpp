@@ -256,14 +256,26 @@ double depth_for(const BucketSize& size, double capacity) {
 TriangleMesh bucket_shell(const BucketSize& size, double depth) {
   const std::vector<Vec2> line = profile_uv(size, depth);
   const Bodies bodies(size);
-  TriangleMesh out;
-  for (const double side : {1.0, -1.0})
-    for (const Vec2& p : line) out.vertices.push_back(bodies.place(p, side * bodies.half(p.x())));
-  // From the middle of the mouth the triangles of a side plate have no small angles.
+  const auto at = [&](const Vec2& p, double side) {
+    return bodies.place(p, side * bodies.half(p.x()));
+  };
+  std::vector<Vec3> left, right;
+  for (const Vec2& p : line) {
+    left.push_back(at(p, 1));
+    right.push_back(at(p, -1));
+  }
   const Vec2 middle(0.5 * line.back().x(), 0);
-  for (const double side : {1.0, -1.0})
-    out.vertices.push_back(bodies.place(middle, side * bodies.half(middle.x())));
-  const int n = static_cast<int>(line.size());
+  return plate_shell(left, right, {at(middle, 1), at(middle, -1)});
+}
+
+TriangleMesh plate_shell(const std::vector<Vec3>& left, const std::vector<Vec3>& right,
+                         const std::array<Vec3, 2>& middles) {
+  TriangleMesh out;
+  out.vertices = left;
+  out.vertices.insert(out.vertices.end(), right.begin(), right.end());
+  // From the middle of the mouth the triangles of a side plate have no small angles.
+  out.vertices.insert(out.vertices.end(), middles.begin(), middles.end());
+  const int n = static_cast<int>(left.size());
   for (int i = 0; i + 1 < n; ++i) {
     out.triangles.push_back({i, n + i + 1, i + 1});
     out.triangles.push_back({i, n + i, n + i + 1});

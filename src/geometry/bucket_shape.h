@@ -41,14 +41,23 @@ double depth_for(const BucketSize& size, double capacity);
 /// factor of `depth_for`.
 double heaped_capacity(const BucketSize& size, double depth);
 
-/// Returns the volume of a heap with slopes of 1:1 on a flat mouth from u0 to u1, whose half width
-/// at u is `half` - `slope` u [m3]. The height of the heap is the distance from the nearest edge of
-/// the mouth. Exact to 1e-6.
+/// Returns the volume [m3] of a heap with slopes of 1:1 on a flat mouth from u0 to u1 [m], whose
+/// half width at u is `half` [m] - `slope` [-] times u. The height of the heap is the distance from
+/// the nearest edge of the mouth. The relative error is below 1e-6 for mouths up to 20 times as
+/// long as their half width.
 double heap_volume(double u0, double u1, double half, double slope);
 
 /// Returns the middle surface of the plates in B, wound so that the fronts are the inside: back,
 /// floor and two flat side plates, with the mouth open.
 TriangleMesh bucket_shell(const BucketSize& size, double depth);
+
+/// Returns a shell of back, floor and two flat side plates. `left` and `right` are the profiles of
+/// its sides from the cutting edge to the upper edge of the back, equally many points, and the
+/// `middles` those of the mouth at the left and right side, from which the triangles of the side
+/// plates spread. Fronts are the inside for profiles that run as that of a bucket in B, otherwise
+/// the outside.
+TriangleMesh plate_shell(const std::vector<Vec3>& left, const std::vector<Vec3>& right,
+                         const std::array<Vec3, 2>& middles);
 
 /// Returns the direction of the floor at the cutting edge in B, outward, as a unit vector.
 Vec3 cut_direction(const BucketSize& size, double depth);

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
-#include "core/error.h"
 #include "geometry/bucket_profile.h"
-#include "geometry/read_mesh.h"
 #include "scene/fields.h"
+#include "scene/scaled_mesh.h"
 #include "scene_io/element_reader.h"
 #include "scene_io/foreign_private.h"
 #include "scene_io/found_arm.h"
@@ -25,11 +23,11 @@ std::string vector_text(const Vec3& v) {
   return short_text(v.x()) + " " + short_text(v.y()) + " " + short_text(v.z());
 }
 
-/// Plane of the arm: x forward, z up, at the pin of the joint of one role.
+/// What one joint does in the arm.
 struct Role {
-  const char* element;  ///< of <navvy:arm>
-  const char* word;
-  int joint;
+  const char* element;  ///< in <navvy:arm>
+  const char* word;     ///< in the report
+  int joint;            ///< index of the joint; -1: none
 };
 
 class ArmMaker {
@@ -48,7 +46,7 @@ class ArmMaker {
     name_roles();
     for (const Role& role : roles_)
       if (role.joint >= 0) turn_axis(role);
-    add_bucket();
+    if (!keep_bucket()) add_bucket();
     if (!weighed) {
       say("left out: torques, speeds and cylinders of the arm follow from masses, and some are "
           "placeholders; import again with --masses or --mass-from-density");
@@ -114,14 +112,6 @@ class ArmMaker {
     }
   }
 
-  static std::string pose_text(const Pose& X) {
-    const Vec3 angles = fixed_angles(X.linear());
-    std::string out;
-    for (const Vec3& part : {Vec3(X.translation()), angles})
-      for (int k = 0; k < 3; ++k) out += (out.empty() ? "" : " ") + exact_text(part[k]);
-    return out;
-  }
-
   /// Gives the joint a frame with x forward and z up, in which the swing turns about z and the
   /// other joints about -y, so that a positive angle lifts.
   void turn_axis(const Role& role) {
@@ -166,11 +156,10 @@ class ArmMaker {
     const Vec3 at = pin(arm_.bucket);
     const auto add = [&](const scene::Geometry& shape, const Pose& X_LS) {
       if (shape.kind != scene::Geometry::Kind::kMesh) return;
-      const geometry::TriangleMesh mesh = geometry::read_mesh(shape.mesh_file);
+      const geometry::TriangleMesh mesh = scene::scaled_mesh(shape);
       const int first = static_cast<int>(out.vertices.size());
       for (const Vec3& v : mesh.vertices)
-        out.vertices.push_back(R_MS_.transpose() *
-                               (link.X_ML * (X_LS * Vec3(v.cwiseProduct(shape.scale))) - at));
+        out.vertices.push_back(R_MS_.transpose() * (link.X_ML * (X_LS * v) - at));
       for (const auto& t : mesh.triangles)
         out.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     };
@@ -180,8 +169,21 @@ class ArmMaker {
     return out;
   }
 
-  void add_bucket() {
+  /// Returns true if the machine has a bucket on the arm's last link.
+  bool keep_bucket() {
     const scene::Link& link = child_of(arm_.bucket);
+    for (const scene::Bucket& bucket : machine_.buckets) {
+      if (bucket.link != link.name) continue;
+      capacity_ = bucket.capacity;
+      tip_radius_ = (link.X_ML * bucket.p_tip - pin(arm_.bucket)).norm();
+      say("kept: the bucket of link '" + link.name + "'");
+      return true;
+    }
+    return false;
+  }
+
+  void add_bucket() {
+    scene::Link& link = child_of(arm_.bucket);
     const auto profile = geometry::find_bucket_profile(bucket_mesh());
     if (!profile) {
       say("not recognised: no mesh of link '" + link.name +
@@ -214,6 +216,7 @@ class ArmMaker {
     // The shell touches bodies and rock in their place.
     if (Element* element = element_of("link", link.name))
       for (Element* e : children_of(*element, {"collision"})) element->DeleteChild(e);
+    link.collisions.clear();
   }
 
   template <class Place, class Turn>
@@ -310,14 +313,15 @@ class ArmMaker {
     scene::Joint& j = joint(role.joint);
     const double start = radians(20), range = j.upper - j.lower;
     if (!j.has_limits || range > radians(125) || range < radians(5)) {
+      const std::string angle = short_text(degrees(range), 3) + " deg";
       say("assumed: joint '" + j.name + "' keeps a motor: " +
-          (j.has_limits ? "a cylinder without linkage does not turn it by " +
-                              short_text(degrees(range), 3) + " deg"
-                        : std::string("it has no limits")));
+          (!j.has_limits        ? "it has no limits"
+           : range < radians(5) ? "it hardly turns, by " + angle
+                                : "a cylinder without linkage does not turn it by " + angle));
       return;
     }
     const bool lifts = role.joint == arm_.boom;
-    const Vec2 to_next = plane_from(role.joint, lifts ? arm_.stick : 0, role);
+    const Vec2 to_next = plane_from(role);
     const double length = to_next.norm();
     // At its start the angle is least: the boom lowered, stick and bucket stretched.
     const double first = lifts ? j.lower : j.upper;
@@ -341,11 +345,9 @@ class ArmMaker {
 
   /// Returns the line in the arm's plane along which the longer pin lies: from the boom's pin to
   /// the stick's, otherwise back from the pin to the one before.
-  Vec2 plane_from(int at, int next, const Role& role) {
-    const int other = role.joint == arm_.boom    ? next
-                      : role.joint == arm_.stick ? arm_.boom
-                                                 : arm_.stick;
-    const Vec3 d = R_MS_.transpose() * (pin(other) - pin(at));
+  Vec2 plane_from(const Role& role) {
+    const int other = role.joint == arm_.stick ? arm_.boom : arm_.stick;
+    const Vec3 d = R_MS_.transpose() * (pin(other) - pin(role.joint));
     return {d.x(), d.z()};
   }
 
@@ -368,7 +370,7 @@ class ArmMaker {
     append(document_, out, "count", model_, std::to_string(count));
     append(document_, out, "bore_m", model_, short_text(bore, 4));
     append(document_, out, "rod_m", model_, short_text(0.7 * bore, 4));
-    append(document_, out, "pressure_pa", model_, "35e6");
+    append(document_, out, "pressure_pa", model_, short_text(kPressure));
     const double flow = j.velocity * lever * count * kPi * bore * bore / 4;
     append(document_, out, "flow_m3_per_s", model_, short_text(std::clamp(flow, 1e-7, 1.0), 4));
   }

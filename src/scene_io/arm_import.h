@@ -14,8 +14,11 @@ namespace navvy::scene_io {
 /// its joints, axes that point as digging expects, the shell and cutting edge of the bucket by the
 /// bucket's mesh, torques and speeds where the file has placeholders, and cylinders that fit the
 /// limits of the joints; torques and cylinders only if the machine is `weighed`, without
-/// placeholders among its masses. `machine` is changed alike. Returns a sentence about each thing
-/// that was made, assumed or not recognised.
+/// placeholders among its masses. In `machine` the roles, the frames, axes, limits, starts, torques
+/// and speeds of the arm's joints and the collisions of the bucket's link change alike; what is
+/// added to `model` (shell, bucket, cylinders) is in the file only. A bucket that the machine has
+/// already is kept. Returns a sentence about each thing that was made, kept, assumed or not
+/// recognised.
 std::vector<std::string> import_arm(Document& document, Element& model, scene::Machine& machine,
                                     bool weighed);
 

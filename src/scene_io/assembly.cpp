@@ -202,7 +202,8 @@ class Assembler {
     if (!part || !check_root(*part->root(), faults_)) return false;
     Element* root = part->root()->FirstChildElement("model");
     if (root == nullptr) {
-      faults_.error(*part->root(), "", "a machine file needs a <model>");
+      faults_.error(*part->root(), "", "a machine file needs a <model>",
+                    "add it, or name the file of a machine");
       return false;
     }
     // All parts become one text, which libsdformat reads by one version.

@@ -11,8 +11,8 @@
 #include "geometry/bucket_shape.h"
 #include "geometry/plate_properties.h"
 #include "scene_io/element_reader.h"
-#include "scene_io/loader.h"
 #include "scene_io/sdf_rules.h"
+#include "scene_io/shipped_files.h"
 
 namespace navvy::scene_io {
 
@@ -28,27 +28,11 @@ constexpr const char* kOfMachine[] = {"link", "shell", "tip_m", "cut_direction",
 /// Elements from which plates are made.
 constexpr const char* kOfPlates[] = {"tip_radius_m", "plate_m", "side_clearance_m", "mass_kg"};
 
-/// Returns the names of the shipped bucket files.
-std::vector<std::string> shipped_buckets() {
-  std::vector<std::string> out;
-  std::error_code ignored;
-  for (const std::string& directory : data_directories())
-    for (const auto& entry : fs::directory_iterator(directory + "/buckets", ignored))
-      if (entry.path().extension() == ".sdf") out.push_back(entry.path().stem().string());
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
-std::string bucket_file(const Element& element, const std::string& ref) {
-  if (fs::path(ref).extension() == ".sdf") {
-    // Parts of a machine keep the file that they were written in.
-    const Place place = place_of(element);
-    const fs::path folder = place.file != nullptr ? fs::path(*place.file).parent_path()
-                                                  : fs::path(Document::of(element).directory());
-    return (folder / ref).string();
-  }
-  return ref.find('/') == std::string::npos ? find_data("buckets/" + ref + ".sdf") : "";
+/// Returns the directory of the file that an element was written in, which parts of a machine keep.
+std::string written_in(const Element& element) {
+  const Place place = place_of(element);
+  return place.file != nullptr ? fs::path(*place.file).parent_path().string()
+                               : Document::of(element).directory();
 }
 
 /// Reports a required element that is missing.
@@ -229,6 +213,14 @@ struct Fitting {
   }
 };
 
+/// Returns the remedy for a bucket without the numbers of plates.
+std::string way_to_numbers() {
+  std::string names;
+  for (const std::string& one : shipped_files("buckets"))
+    names += (names.empty() ? "" : ", ") + one;
+  return "or a <shell>, or ref to a bucket file: " + names;
+}
+
 /// Checks what must stand in the element, with or without a shell.
 bool check_form(const Element& element, Faults& faults) {
   const std::size_t before = faults.error_count();
@@ -240,13 +232,8 @@ bool check_form(const Element& element, Faults& faults) {
         faults.error(*e, text_of(*e), "belongs to a bucket that is made of plates",
                      "remove it, or remove <shell>");
   } else {
-    const std::string remedy = "or a <shell>, or ref to a bucket file: " + [] {
-      std::string names;
-      for (const std::string& one : shipped_buckets()) names += (names.empty() ? "" : ", ") + one;
-      return names;
-    }();
-    check_has(element, "capacity_m3", remedy, faults);
-    check_has(element, "width_m", remedy, faults);
+    for (const char* name : {"capacity_m3", "width_m"})
+      if (!has(element, name)) check_has(element, name, way_to_numbers(), faults);
     if (const Element* e = element.FirstChildElement("cut_direction"))
       faults.error(*e, text_of(*e), "follows from the shape of a bucket without <shell>",
                    "remove it");
@@ -273,10 +260,10 @@ int replaced_by(const std::string& link, const Slots& slots) {
 void fill_in_bucket(Element& bucket, Faults& faults) {
   const std::string ref = attribute(bucket, "ref");
   if (ref.empty()) return;
-  const std::string file = bucket_file(bucket, ref);
+  const std::string file = data_file(written_in(bucket), ref, "buckets");
   std::error_code ignored;
   if (file.empty() || !fs::is_regular_file(file, ignored)) {
-    faults.error(bucket, ref, "no such bucket file", faults.nearest(ref, shipped_buckets()));
+    faults.error(bucket, ref, "no such bucket file", faults.nearest(ref, shipped_files("buckets")));
     return;
   }
   const auto document = Document::open(file, faults);

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "geometry/primitive_solids.h"
-#include "geometry/read_mesh.h"
+#include "scene/scaled_mesh.h"
 #include "scene_io/mesh_path.h"
 
 namespace navvy::scene_io {
@@ -117,9 +117,7 @@ bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS,
       return false;
     case Kind::kMesh:
       try {
-        geometry::TriangleMesh mesh = geometry::read_mesh(shape.mesh_file);
-        for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.scale);
-        out = geometry::solid_properties(mesh, shape.mesh_file);
+        out = geometry::solid_properties(scene::scaled_mesh(shape), shape.mesh_file);
       } catch (const Error& error) {
         faults.error(at, shape.mesh_file, error.what(),
                      "only a closed mesh has a mass: close it, or give <inertial>");

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/read_mesh.h"
+#include "scene/scaled_mesh.h"
 #include "scene_io/element_reader.h"
 #include "scene_io/foreign_private.h"
 #include "scene_io/xml_limits.h"
@@ -53,8 +53,7 @@ double lowest_of(const scene::Geometry& shape, const Pose& X) {
       break;
   }
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Vec3& v : geometry::read_mesh(shape.mesh_file).vertices)
-    lowest = std::min(lowest, (X * v.cwiseProduct(shape.scale)).z());
+  for (const Vec3& v : scene::scaled_mesh(shape).vertices) lowest = std::min(lowest, (X * v).z());
   return lowest;
 }
 
@@ -91,8 +90,13 @@ void IgnoredKinds::report(Faults& faults) const {
 }
 
 bool check_expanded(const Element& element, Faults& faults) {
+  const bool sdf = std::strcmp(element.GetDocument()->RootElement()->Name(), "sdf") == 0;
+  // Plugins are not run, and their settings have a syntax of their own.
+  if (sdf && std::strcmp(element.Name(), "plugin") == 0) return true;
   const auto refuse = [&](const std::string& text, const std::string& what) {
-    faults.error(element, text, what, "run `xacro FILE > robot.urdf` and load its result");
+    faults.error(
+        element, text, what,
+        std::string("run `xacro FILE > robot.") + (sdf ? "sdf" : "urdf") + "` and load its result");
     return false;
   };
   const auto check_text_of = [&](const std::string& text) {
@@ -118,6 +122,14 @@ double loose_number(const std::string& text, double otherwise) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   return end == text.c_str() || *end != '\0' ? otherwise : value;
+}
+
+std::string pose_text(const Pose& X) {
+  const Vec3 angles = fixed_angles(X.linear());
+  std::string out;
+  for (const Vec3& part : {Vec3(X.translation()), angles})
+    for (int k = 0; k < 3; ++k) out += (out.empty() ? "" : " ") + scene::exact_text(part[k]);
+  return out;
 }
 
 Element& append(Document& document, Element& parent, const char* name, const Element& from,
@@ -166,6 +178,8 @@ bool import_document(Document& document, Faults& faults) {
   if (urdf) {
     if (!check_expanded(root, faults) || !convert_urdf(document, ignored, faults)) return false;
   } else {
+    // Before cleaning, which drops elements of other namespaces.
+    if (foreign && !check_expanded(root, faults)) return false;
     upgrade_sdf(document);
   }
   if (foreign || urdf) {

@@ -12,7 +12,7 @@ namespace navvy::scene_io {
 /// any element or attribute of `navvy:` counts as foreign: what has no effect in it is removed, in
 /// silence where it equals SDF's default or only changes the look, otherwise with one warning for
 /// all elements of a kind; `document` is then marked as foreign. Elements keep their file and line.
-/// Returns false after an error in a URDF file that leaves no model to read.
+/// Returns false after an error that leaves nothing to read.
 bool import_document(Document& document, Faults& faults);
 
 /// Completes a foreign world after `overrides` were applied: the soil, the size of its ground, its

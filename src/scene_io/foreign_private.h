@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "core/math.h"
 #include "scene_io/xml.h"
 
 namespace navvy::scene_io {
@@ -43,12 +44,16 @@ void anchor_joints(Document& document);
 /// Replaces the root <robot> of a URDF file by <sdf> with a <model>. Returns false after an error.
 bool convert_urdf(Document& document, IgnoredKinds& ignored, Faults& faults);
 
-/// Reports text that a tool of ROS should have replaced: xacro and substitutions such as
-/// $(optenv X). Returns false after such an error.
+/// Reports text of a URDF or foreign SDF file that a tool of ROS should have replaced: xacro and
+/// substitutions such as $(optenv X); plugins of SDF may hold any text. Returns false after such an
+/// error.
 bool check_expanded(const Element& element, Faults& faults);
 
 /// Reads a number like strtod: 1.8e308 is infinite. Returns `otherwise` for other text.
 double loose_number(const std::string& text, double otherwise);
+
+/// Returns a pose as SDF's six numbers.
+std::string pose_text(const Pose& X);
 
 /// Appends an element with a text to `parent`; errors in it are reported at `from`.
 Element& append(Document& document, Element& parent, const char* name, const Element& from,

@@ -24,12 +24,10 @@ std::string numbers_text(std::initializer_list<double> values) {
   return text;
 }
 
-/// Writes a pose as SDF's six numbers.
+/// Replaces the pose of an element.
 void write_pose(Document& document, Element& owner, const Pose& X) {
   if (Element* old = owner.FirstChildElement("pose")) owner.DeleteChild(old);
-  const Vec3 p = X.translation(), turn = fixed_angles(X.linear());
-  append(document, owner, "pose", owner,
-         numbers_text({p.x(), p.y(), p.z(), turn.x(), turn.y(), turn.z()}));
+  append(document, owner, "pose", owner, pose_text(X));
 }
 
 /// Completes one world.

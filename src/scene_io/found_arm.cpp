@@ -28,6 +28,14 @@ bool is_called_bucket(std::string name) {
          name.find("dipper") != std::string::npos;
 }
 
+/// Returns the index of the joint that moves the link, across fixed joints; -1: none.
+int joint_above(const scene::Machine& machine, int link) {
+  // The child of joint i is link i + 1.
+  while (link > 0 && joint_at(machine, link - 1).type == scene::Joint::Type::kFixed)
+    link = joint_at(machine, link - 1).parent;
+  return link > 0 ? link - 1 : -1;
+}
+
 /// Returns the three joints that end with `last`; nothing if they are no arm.
 std::optional<FoundArm> arm_ending(const scene::Machine& machine, int last) {
   FoundArm arm;
@@ -49,7 +57,7 @@ std::optional<FoundArm> arm_ending(const scene::Machine& machine, int last) {
   return arm;
 }
 
-/// Returns how likely the row is the arm: by name, reach and what it moves.
+/// Returns how likely the row is the arm: by name, then by what it moves, then by reach.
 double score_of(const scene::Machine& machine, const FoundArm& arm) {
   const scene::Joint& last = joint_at(machine, arm.bucket);
   const Vec3 foot = pose_of(machine, joint_at(machine, arm.boom)).translation();
@@ -62,13 +70,6 @@ double score_of(const scene::Machine& machine, const FoundArm& arm) {
 }
 
 }  // namespace
-
-int joint_above(const scene::Machine& machine, int link) {
-  // The child of joint i is link i + 1.
-  while (link > 0 && joint_at(machine, link - 1).type == scene::Joint::Type::kFixed)
-    link = joint_at(machine, link - 1).parent;
-  return link > 0 ? link - 1 : -1;
-}
 
 std::optional<FoundArm> find_arm(const scene::Machine& machine) {
   std::optional<FoundArm> best;

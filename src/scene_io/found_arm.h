@@ -14,13 +14,10 @@ struct FoundArm {
   Vec3 forward = Vec3::UnitX();  ///< horizontal direction of the arm in the machine's frame
 };
 
-/// Returns the index of the joint that moves the link, across fixed joints; -1: none.
-int joint_above(const scene::Machine& machine, int link);
-
 /// Returns the arm of a machine: three revolute joints in a row, across fixed joints, about level
 /// and parallel axes, below one about the vertical if there is one. Of several such rows, one whose
-/// last joint or link is called bucket, shovel or dipper is taken, then the one that reaches
-/// furthest and moves nothing more.
+/// last joint or link is called bucket, shovel or dipper is taken, then one that moves nothing
+/// more, then the one that reaches furthest.
 std::optional<FoundArm> find_arm(const scene::Machine& machine);
 
 }  // namespace navvy::scene_io

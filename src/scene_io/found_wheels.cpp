@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/read_mesh.h"
+#include "scene/scaled_mesh.h"
 
 namespace navvy::scene_io {
 
@@ -19,8 +19,8 @@ bool measure_mesh(const scene::Geometry& shape, const Pose& X_MS, const Vec3& ax
                   FoundWheel& wheel) {
   const Vec3 across = axis.cross(Vec3::UnitZ()).normalized(), up = across.cross(axis);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const Vec3& v : geometry::read_mesh(shape.mesh_file).vertices) {
-    const Vec3 p = X_MS * v.cwiseProduct(shape.scale);
+  for (const Vec3& v : scene::scaled_mesh(shape).vertices) {
+    const Vec3 p = X_MS * v;
     const Vec3 q(p.dot(axis), p.dot(across), p.dot(up));
     low = low.cwiseMin(q);
     high = high.cwiseMax(q);

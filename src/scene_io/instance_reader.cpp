@@ -2,6 +2,7 @@
 #include "scene_io/instance_reader.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "core/limits.h"
 #include "scene_io/bucket_reader.h"
@@ -65,6 +66,20 @@ void read_place(const Element& pose, scene::MachineInWorld& instance, const scen
                  "move it, or enlarge size_m of the ground");
 }
 
+/// Reports an <include> that names the world it stands in.
+bool check_no_loop(const Element& uri, const std::string& path, Faults& faults) {
+  std::error_code ignored;
+  const std::string& own = Document::of(uri).file();
+  if (!std::filesystem::equivalent(path, own, ignored)) return true;
+  // A scene around a machine alone has the name of the machine's file.
+  Faults unread;
+  const auto document = Document::open(path, unread);
+  if (!document || document->root()->FirstChildElement("model") != nullptr) return true;
+  faults.error(uri, text_of(uri), "a world cannot be a part of itself",
+               "name the file of a machine, or remove the <include>");
+  return false;
+}
+
 /// Reads the machine of an <include> from its file.
 void read_include(Element& element, scene::MachineInWorld& instance, const Known& known,
                   Faults& faults) {
@@ -72,7 +87,8 @@ void read_include(Element& element, scene::MachineInWorld& instance, const Known
   std::string path;
   if (uri == nullptr) {
     faults.error(element, "", "needs an element <uri>", "e.g. <uri>model://ew180</uri>");
-  } else if (!text_of(*uri).empty() && resolve_model(*uri, path, faults)) {
+  } else if (!text_of(*uri).empty() && resolve_model(*uri, path, faults) &&
+             check_no_loop(*uri, path, faults)) {
     if (faults.work.elements > limits::kSceneElements)
       faults.error(element, text_of(*uri),
                    "a scene and its machines may have at most " +

@@ -12,10 +12,11 @@
 #include "geometry/hull.h"
 #include "geometry/oriented_box.h"
 #include "geometry/primitive_solids.h"
-#include "geometry/read_mesh.h"
 #include "geometry/solid_properties.h"
+#include "scene/scaled_mesh.h"
 #include "scene_io/arm_import.h"
 #include "scene_io/assembly.h"
+#include "scene_io/bucket_reader.h"
 #include "scene_io/element_reader.h"
 #include "scene_io/foreign_private.h"
 #include "scene_io/found_wheels.h"
@@ -35,6 +36,8 @@ using scene::short_text;
 /// Below this density a mass is a placeholder: even a hollow body of sheet metal is heavier
 /// [kg/m3] (U).
 constexpr double kLeastDensity = 5;
+/// A link below the first mass is a placeholder in a machine above the second [kg] (U).
+constexpr double kLeastMass = 1, kHeavyMachine = 1000;
 
 /// Returns the solid of a shape in its link's frame at 1 kg/m3; meshes count by their hulls.
 geometry::SolidProperties solid_of(const scene::Geometry& shape, const Pose& X_LS) {
@@ -47,9 +50,8 @@ geometry::SolidProperties solid_of(const scene::Geometry& shape, const Pose& X_L
   if (shape.kind == Kind::kCapsule) out = geometry::solid_capsule(shape.radius, shape.length);
   if (shape.kind == Kind::kMesh) {
     try {
-      std::vector<Vec3> points = geometry::read_mesh(shape.mesh_file).vertices;
-      for (Vec3& p : points) p = p.cwiseProduct(shape.scale);
-      out = geometry::solid_properties(geometry::convex_hull(std::move(points)).mesh);
+      geometry::TriangleMesh mesh = scene::scaled_mesh(shape);
+      out = geometry::solid_properties(geometry::convex_hull(std::move(mesh.vertices)).mesh);
     } catch (const InputError&) {
       // A flat mesh encloses nothing.
       return out;
@@ -68,6 +70,7 @@ class Maker {
     if (!options_.masses.empty())
       masses_ = read_masses(options_.masses, names_in_list(machine_.links));
     copy_meshes(model_, faults);
+    fill_in_buckets(faults);
     weigh();
     for (const std::string& sentence :
          import_arm(document_, model_, machine_, placeholders_.empty()))
@@ -111,6 +114,14 @@ class Maker {
     }
   }
 
+  /// Writes out the values of bucket files, whose paths count from the folder of the foreign file.
+  void fill_in_buckets(Faults& faults) {
+    for (Element* bucket : children_of(model_, {"navvy:bucket"})) {
+      fill_in_bucket(*bucket, faults);
+      bucket->DeleteAttribute("ref");
+    }
+  }
+
   /// Returns the name of the copy of a mesh file, which is made at its first use.
   std::string copy_of(const std::string& path) {
     const auto [at, is_new] = copies_.try_emplace(path);
@@ -142,32 +153,52 @@ class Maker {
   /// density was given.
   void weigh() {
     for (scene::Link& link : machine_.links) {
-      geometry::SolidProperties sum;
-      for (const scene::Collision& shape : link.collisions)
-        sum = joined_with(sum, shape.geometry, shape.X_LC);
-      if (link.collisions.empty())
-        for (const scene::Visual& shape : link.visuals)
-          sum = joined_with(sum, shape.geometry, shape.X_LV);
-      if (const auto given = masses_.find(link.name); given != masses_.end()) {
-        say("filled in: link '" + link.name + "' weighs " + short_text(given->second) +
-            " kg, not " + short_text(link.mass, 4) +
-            (sum.volume > 0 ? "; centre and inertia follow from its shapes"
-                            : "; without shapes it keeps its centre"));
-        set_mass(link, given->second, sum);
-        continue;
-      }
-      if (!(sum.volume > 0) || link.mass >= kLeastDensity * sum.volume) continue;
-      const std::string what = "link '" + link.name + "' has " + short_text(link.mass) +
-                               " kg in shapes of " + short_text(sum.volume) + " m3, a placeholder";
-      if (!(options_.density > 0)) {
-        placeholders_.push_back(link.name + "," + short_text(link.mass));
-        say("kept: " + what +
-            "; --mass-from-density KG_PER_M3 or --masses FILE replaces it (masses.csv lists them)");
-        continue;
-      }
-      set_mass(link, options_.density * sum.volume, sum);
-      say("replaced: " + what + ": " + short_text(link.mass) + " kg by the density");
+      const auto given = masses_.find(link.name);
+      if (given == masses_.end()) continue;
+      const geometry::SolidProperties shapes = shapes_of(link);
+      say("filled in: link '" + link.name + "' weighs " + short_text(given->second) + " kg, not " +
+          short_text(link.mass, 4) +
+          (shapes.volume > 0 ? "; centre and inertia follow from its shapes"
+                             : "; without shapes it keeps its centre"));
+      set_mass(link, given->second, shapes);
     }
+    const double whole = machine_.total_mass();
+    for (scene::Link& link : machine_.links)
+      if (masses_.count(link.name) == 0) judge_mass(link, whole);
+  }
+
+  /// Returns the sum of a link's shapes at 1 kg/m3: its collisions, otherwise its visuals.
+  static geometry::SolidProperties shapes_of(const scene::Link& link) {
+    geometry::SolidProperties sum;
+    for (const scene::Collision& shape : link.collisions)
+      sum = joined_with(sum, shape.geometry, shape.X_LC);
+    if (link.collisions.empty())
+      for (const scene::Visual& shape : link.visuals)
+        sum = joined_with(sum, shape.geometry, shape.X_LV);
+    return sum;
+  }
+
+  /// Names a mass that is a placeholder in a machine of the mass `whole` [kg], or replaces it.
+  void judge_mass(scene::Link& link, double whole) {
+    const geometry::SolidProperties shapes = shapes_of(link);
+    const bool light = shapes.volume > 0 && link.mass < kLeastDensity * shapes.volume;
+    const bool tiny = link.mass < kLeastMass && whole > kHeavyMachine;
+    if (!light && !tiny) return;
+    const std::string what = "link '" + link.name + "' has " + short_text(link.mass) + " kg in " +
+                             (light ? "shapes of " + short_text(shapes.volume) + " m3"
+                                    : "a machine of " + short_text(whole, 4) + " kg") +
+                             ", a placeholder";
+    if (options_.density > 0 && shapes.volume > 0) {
+      set_mass(link, options_.density * shapes.volume, shapes);
+      say("replaced: " + what + ": " + short_text(link.mass) + " kg by the density");
+      return;
+    }
+    placeholders_.push_back(link.name + "," + short_text(link.mass));
+    say("kept: " + what +
+        (shapes.volume > 0
+             ? "; --mass-from-density KG_PER_M3 or --masses FILE replaces it"
+             : "; --masses FILE replaces it, as it has no shapes for --mass-from-density") +
+        " (masses.csv lists them)");
   }
 
   /// Gives a link a mass, with centre and inertia of its shapes if they have a volume.
@@ -189,8 +220,10 @@ class Maker {
     std::vector<std::vector<geometry::OrientedBox>> boxes;
     for (const scene::Link& link : machine_.links) {
       boxes.emplace_back();
+      // A plane has no end, so that half of the machine would be in it.
       for (const scene::Collision& one : link.collisions)
-        boxes.back().push_back(box_of(one.geometry, link.X_ML * one.X_LC));
+        if (one.geometry.kind != scene::Geometry::Kind::kPlane)
+          boxes.back().push_back(box_of(one.geometry, link.X_ML * one.X_LC));
     }
     std::size_t found = 0;
     for (std::size_t a = 0; a < boxes.size(); ++a)
@@ -210,7 +243,7 @@ class Maker {
       say("overlapping: " + std::to_string(found - kNamed) + " more pairs of links");
   }
 
-  /// Returns a box around a shape.
+  /// Returns a box around a shape other than a plane.
   static geometry::OrientedBox box_of(const scene::Geometry& shape, const Pose& X_MS) {
     using Kind = scene::Geometry::Kind;
     geometry::OrientedBox out;
@@ -221,11 +254,10 @@ class Maker {
                     : shape.kind == Kind::kCapsule ? h + r
                                                    : h);
     if (shape.kind == Kind::kBox) out.half = 0.5 * shape.size;
-    if (shape.kind == Kind::kPlane) out.half = Vec3::Zero();
     if (shape.kind == Kind::kMesh) {
-      const geometry::Box box = geometry::bounds(geometry::read_mesh(shape.mesh_file));
-      out.half = 0.5 * (box.high - box.low).cwiseProduct(shape.scale.cwiseAbs());
-      out.X_WO.translation() = X_MS * Vec3(0.5 * (box.high + box.low).cwiseProduct(shape.scale));
+      const geometry::Box box = geometry::bounds(scene::scaled_mesh(shape));
+      out.half = 0.5 * (box.high - box.low);
+      out.X_WO.translation() = X_MS * Vec3(0.5 * (box.high + box.low));
     }
     return out;
   }
@@ -405,7 +437,9 @@ std::vector<std::string> import_machine(const std::string& file, const ImportOpt
     faults.error(root, root.Name(), "only a file with one machine can be imported",
                  "name the file of the model that a world includes");
   faults.finish();
-  scene::Machine machine = load_machine(file);
+  Faults read;
+  scene::Machine machine = read_machine_file(file, read);
+  read.finish();
   const std::string to = (fs::path(options.folder) / "model.sdf").string();
   std::error_code unknown;
   if (fs::exists(to, unknown))
@@ -416,7 +450,7 @@ std::vector<std::string> import_machine(const std::string& file, const ImportOpt
   Maker maker(*document, *model, std::move(machine), options);
   std::vector<std::string> report = maker.make(faults);
   faults.finish();
-  for (const Fault& fault : check(file, scene::StepKinds{}))
+  for (const Fault& fault : read.list())
     if (fault.severity == Fault::Severity::kWarning)
       report.push_back("dropped or assumed by the reader: " + fault.text());
   write_file_atomically(to, document->text());

@@ -85,7 +85,12 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
   check_sdf(root, faults);
   Element* model = root.FirstChildElement("model");
   if (!model) {
-    faults.error(root, "", "a machine file needs a <model>");
+    const Element* world = root.FirstChildElement("world");
+    faults.error(root, world != nullptr ? attribute(*world, "name") : "",
+                 "a machine file needs a <model>",
+                 world != nullptr ? "this one holds a world, which cannot be included: name the "
+                                    "file of a machine"
+                                  : "add it, or name the file of a machine");
     return {};
   }
   // A machine file is used in many worlds.

@@ -7,13 +7,15 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "scene/fields.h"
 #include "scene_io/xml.h"
 
 namespace navvy::scene_io {
 
 namespace {
 
-constexpr double kMost = 1e6;  ///< a link of more is a mistake of units [kg]
+/// Bounds of the mass of a link, as in SDF [kg].
+constexpr double kLeast = 1e-6, kMost = 1e8;
 
 [[noreturn]] void refuse(const std::string& file, int line, const std::string& element,
                          const std::string& value, const std::string& rule,
@@ -49,8 +51,11 @@ std::map<std::string, double> read_masses(const std::string& file,
              suggestion(link, links));
     double mass = 0;
     // The comparison is false for NaN.
-    if (!to_number(text, mass) || !(mass >= 1e-6 && mass <= kMost))
-      refuse(file, number, "mass_kg", text, "must be a number from 1e-6 to 1e+06", "give it in kg");
+    if (!to_number(text, mass) || !(mass >= kLeast && mass <= kMost))
+      refuse(
+          file, number, "mass_kg", text,
+          "must be a number from " + scene::short_text(kLeast) + " to " + scene::short_text(kMost),
+          "give it in kg");
     if (!out.emplace(link, mass).second)
       refuse(file, number, "link", link, "has a mass already", "remove one of the two lines");
   }

@@ -298,8 +298,11 @@ class Tree {
     while (machine_.links.size() < links_.size() && grow(false)) grow(true);
     if (machine_.links.size() < links_.size()) {
       // A separate loop is never reached from the base.
-      faults_.error(model_, "", "the joints form a loop beside the base",
-                    "connect one of its links to the base '" + base->name + "' by a joint");
+      const auto outside = std::find_if(links_.begin(), links_.end(), [&](const scene::Link& link) {
+        return machine_.link_index(link.name) < 0;
+      });
+      report_ring(outside->name, " beside the base",
+                  "connect one of its links to the base '" + base->name + "' by a joint");
       return;
     }
     close_loops();
@@ -322,6 +325,41 @@ class Tree {
     });
   }
 
+  /// Returns the joints of the ring above a link, from one link down to itself; empty without one.
+  std::vector<const NamedJoint*> ring_above(std::string link) const {
+    std::vector<const NamedJoint*> way;
+    while (true) {
+      const auto into = std::find_if(joints_.begin(), joints_.end(), [&](const NamedJoint& joint) {
+        return joint.parent != "world" && joint.child == link;
+      });
+      if (into == joints_.end()) return {};
+      const auto seen = std::find(way.begin(), way.end(), &*into);
+      if (seen != way.end()) {
+        way.erase(way.begin(), seen);
+        std::reverse(way.begin(), way.end());
+        return way;
+      }
+      way.push_back(&*into);
+      link = into->parent;
+    }
+  }
+
+  /// Reports the ring above a link at the last of its joints in the file.
+  void report_ring(const std::string& link, const std::string& rule,
+                   const std::string& remedy) const {
+    constexpr std::size_t kNamed = 6;
+    const std::vector<const NamedJoint*> ring = ring_above(link);
+    if (ring.empty()) return faults_.error(model_, "", "the joints form a loop" + rule, remedy);
+    std::string names;
+    for (std::size_t i = 0; i < ring.size() && i < kNamed; ++i)
+      names += (names.empty() ? "'" : ", '") + ring[i]->joint.name + "'";
+    if (ring.size() > kNamed) names += " and " + std::to_string(ring.size() - kNamed) + " more";
+    // All of them are in one vector, in the order of the file.
+    const NamedJoint& last = **std::max_element(ring.begin(), ring.end());
+    faults_.error(element_of("joint", last.joint.name), last.joint.name,
+                  "the joints " + names + " form a loop" + rule, remedy);
+  }
+
   /// Returns the one link that no joint moves; in a ring, the one that is fixed to the world. Null
   /// after an error.
   const scene::Link* find_base() const {
@@ -332,9 +370,9 @@ class Tree {
       for (const scene::Link& link : links_)
         if (is_held(link.name)) bases.push_back(&link);
     if (bases.empty()) {
-      faults_.error(model_, "", "the joints form a loop: no link is the base",
-                    "fix one of its links to the world by a fixed joint, exchange <parent> and "
-                    "<child> of the joint into the link that is to be the base, or remove a joint");
+      report_ring(links_[0].name, ": no link is the base",
+                  "fix one of its links to the world by a fixed joint, exchange <parent> and "
+                  "<child> of the joint into the link that is to be the base, or remove a joint");
       return nullptr;
     }
     for (std::size_t i = 1; i < bases.size(); ++i)

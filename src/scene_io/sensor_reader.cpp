@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <set>
 
-#include "scene_io/loader.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_rules.h"
+#include "scene_io/shipped_files.h"
 
 namespace navvy::scene_io {
 
@@ -37,24 +37,6 @@ const std::set<std::string>& ignored_types() {
                                               "wireless_receiver",
                                               "wireless_transmitter"};
   return types;
-}
-
-/// Returns the names of the shipped presets.
-std::vector<std::string> presets() {
-  std::vector<std::string> out;
-  std::error_code ignored;
-  for (const std::string& directory : data_directories())
-    for (const auto& entry : fs::directory_iterator(directory + "/sensors", ignored))
-      if (entry.path().extension() == ".sdf") out.push_back(entry.path().stem().string());
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
-std::string preset_file(const Element& element, const std::string& name) {
-  if (fs::path(name).extension() == ".sdf")
-    return (fs::path(Document::of(element).directory()) / name).string();
-  return name.find('/') == std::string::npos ? find_data("sensors/" + name + ".sdf") : "";
 }
 
 /// Reports a type of noise that is not one of SDF's, at the sensor's element.
@@ -276,10 +258,12 @@ bool read_sensor(Element& element, const Names& names, scene::Sensor& sensor, Fa
 void fill_in_preset(Element& sensor, Faults& faults) {
   const Element* named = sensor.FirstChildElement("navvy:preset");
   if (named == nullptr || text_of(*named).empty()) return;
-  const std::string name = text_of(*named), file = preset_file(sensor, name);
+  const std::string name = text_of(*named),
+                    file = data_file(Document::of(sensor).directory(), name, "sensors");
   std::error_code ignored;
   if (file.empty() || !fs::is_regular_file(file, ignored)) {
-    faults.error(*named, name, "no such preset of a sensor", faults.nearest(name, presets()));
+    faults.error(*named, name, "no such preset of a sensor",
+                 faults.nearest(name, shipped_files("sensors")));
     return;
   }
   const auto document = Document::open(file, faults);

@@ -6,8 +6,8 @@
 
 #include "scene/soil_values.h"
 #include "scene_io/element_reader.h"
-#include "scene_io/loader.h"
 #include "scene_io/sdf_rules.h"
+#include "scene_io/shipped_files.h"
 
 namespace navvy::scene_io {
 
@@ -52,15 +52,7 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
   std::error_code ignored;
   const std::string file = soil_file(element, ref);
   if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) {
-    // A soil in two directories is suggested once.
-    std::vector<std::string> known;
-    for (const std::string& directory : data_directories())
-      for (const auto& entry :
-           std::filesystem::directory_iterator(directory + "/terrain/soils", ignored))
-        if (entry.path().extension() == ".sdf") known.push_back(entry.path().stem().string());
-    std::sort(known.begin(), known.end());
-    known.erase(std::unique(known.begin(), known.end()), known.end());
-    faults.error(element, ref, "no such soil", faults.nearest(ref, known));
+    faults.error(element, ref, "no such soil", faults.nearest(ref, shipped_files("terrain/soils")));
     return false;
   }
   // Its faults have its own file name and lines.
@@ -72,11 +64,8 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
 
 }  // namespace
 
-// Shipped soils have no folders, so a path without .sdf is not searched for.
 std::string soil_file(const Element& element, const std::string& ref) {
-  if (ref.size() > 4 && ref.compare(ref.size() - 4, 4, ".sdf") == 0)
-    return (std::filesystem::path(Document::of(element).directory()) / ref).string();
-  return ref.find('/') == std::string::npos ? find_data("terrain/soils/" + ref + ".sdf") : "";
+  return data_file(Document::of(element).directory(), ref, "terrain/soils");
 }
 
 scene::Soil read_soil(Element& element, Faults& faults) {

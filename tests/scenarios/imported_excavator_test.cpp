@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
 
 #include "folder.h"
 #include "process.h"
@@ -44,6 +46,11 @@ TEST(ImportedExcavator, DigsThreeBucketsAfterItsMassesAreFilledIn) {
   for (const auto& program : summary.at("programs"))
     EXPECT_EQ(program.at("state"), "done") << program.dump(1);
   EXPECT_EQ(summary.at("mass_ledger").at("error_units"), 0);
+  EXPECT_EQ(summary.at("cycles"), 3);
+  const auto payloads = summary.at("payload_kg").get<std::vector<double>>();
+  ASSERT_EQ(payloads.size(), 3u);
+  EXPECT_GT(std::accumulate(payloads.begin(), payloads.end(), 0.0) / 3, 300)
+      << summary.at("payload_kg").dump();
 }
 
 }  // namespace

@@ -70,6 +70,11 @@ class Import : public testing::Test {
   test::Folder folder_;
 };
 
+void expect_in(const std::string& messages, const std::vector<std::string>& fragments) {
+  for (const std::string& fragment : fragments)
+    EXPECT_NE(messages.find(fragment), std::string::npos) << fragment << "\nnot in\n" << messages;
+}
+
 std::string urdf_link(const std::string& name, const std::string& more = "") {
   return "<link name='" + name +
          "'><inertial><mass value='3'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
@@ -258,6 +263,35 @@ TEST_F(Import, ModelThatIncludesItselfIsRefused) {
   EXPECT_NE(got.messages.find("a model cannot be a part of itself"), std::string::npos);
 }
 
+TEST_F(Import, WorldThatIncludesItselfIsRefused) {
+  const std::string file = folder_ / "loop.sdf";
+  const Read got = read("loop.sdf", "<sdf version='1.7'>\n<world name='w'>\n<include><uri>" + file +
+                                        "</uri></include></world></sdf>");
+  expect_in(got.messages, {"loop.sdf:3: error", "'" + file + "'",
+                           "a world cannot be a part of itself", "remove the <include>"});
+  write("other.sdf", "<sdf version='1.7'><world name='v'/></sdf>");
+  const Read other = read_world("<include><uri>other.sdf</uri></include>");
+  expect_in(other.messages, {"'v'", "name the file of a machine"});
+}
+
+TEST_F(Import, TextThatAToolOfRosShouldReplaceIsNamedInSdf) {
+  const auto expect = [&](const std::string& inner, const std::vector<std::string>& fragments) {
+    const Read got = read_world(inner);
+    EXPECT_GT(got.errors, 0u);
+    expect_in(got.messages, fragments);
+  };
+  const std::string remedy = "run `xacro FILE > robot.sdf` and load its result";
+  expect("<include><uri>$(optenv HOME)/a</uri></include>",
+         {"world.sdf:3: error", "'$(optenv HOME)/a'", "$(optenv ...)", remedy});
+  expect(model(ball("", "${x}")), {"world.sdf:4: error", "'${x}'", "${...}", remedy});
+  expect("<xacro:macro name='x'/>",
+         {"world.sdf:3: error", "'xacro:macro'", "xacro that was not expanded", remedy});
+  // A plugin is not run, whatever its settings mean.
+  const Read plugin =
+      read_world(model(ball() + "<plugin name='p' filename='f'><path>$(find a)/b</path></plugin>"));
+  EXPECT_EQ(plugin.errors, 0u) << plugin.messages;
+}
+
 TEST_F(Import, RobotOfUrdfIsAMachine) {
   const Read got = read_robot(
       "<material name='red'><color rgba='1 0 0 1'/></material>" +
@@ -404,6 +438,16 @@ TEST_F(Import, RingHeldByTheWorldHasItsBaseThere) {
   EXPECT_EQ(m.loops[0].name, "four");
 }
 
+TEST_F(Import, RingWithoutABaseNamesItsJoints) {
+  const Read got =
+      read_world(model(bars() + bar_joint("one", "a", "b") + bar_joint("two", "b", "c") +
+                       bar_joint("three", "c", "d") + bar_joint("four", "d", "a")));
+  expect_in(got.messages,
+            {"world.sdf:7: error: world/model[m]/joint[four]: 'four'",
+             "the joints 'one', 'two', 'three', 'four' form a loop: no link is the base",
+             "fix one of its links to the world"});
+}
+
 TEST_F(Import, PassiveJointsOfALoopStartWhereItsMotorPutsThem) {
   const std::string text =
       "<sdf version='1.9' xmlns:navvy='navvy'>" +
@@ -481,9 +525,7 @@ TEST_F(Import, BadRobotsAreRefusedWithLineValueAndRemedy) {
   const auto expect = [&](const std::string& inner, const std::vector<std::string>& fragments) {
     const Read got = read_robot(inner);
     EXPECT_GT(got.errors, 0u);
-    for (const std::string& fragment : fragments)
-      EXPECT_NE(got.messages.find(fragment), std::string::npos) << fragment << "\nnot in\n"
-                                                                << got.messages;
+    expect_in(got.messages, fragments);
   };
   expect(urdf_link("a") + urdf_link("b"),
          {"robot.urdf:3: error", "'b'", "one root link, here 'a'", "type fixed"});
@@ -533,6 +575,19 @@ TEST_F(Import, PackagesAreFoundAboveTheFileAndOnTheSearchPath) {
   ::setenv("NAVVY_MODEL_PATH", (folder_ / "elsewhere").c_str(), 1);
   EXPECT_EQ(robot("package://far_pack/a.obj").errors, 0u);
   ::unsetenv("NAVVY_MODEL_PATH");
+}
+
+TEST_F(Import, ModelsAreFoundOnTheSearchPathToo) {
+  write("elsewhere/far_ball/model.sdf", "<sdf version='1.6'>" + model(ball("", "far")) + "</sdf>");
+  const std::string include = "<include><uri>model://far_ball</uri></include>";
+  const Read missing = read_world(include);
+  expect_in(missing.messages,
+            {"world.sdf:3: error", "set NAVVY_MODEL_PATH to the folder that holds 'far_ball'"});
+  ::setenv("NAVVY_MODEL_PATH", ("/nowhere:" + (folder_ / "elsewhere")).c_str(), 1);
+  const Read found = read_world(include);
+  ::unsetenv("NAVVY_MODEL_PATH");
+  ASSERT_EQ(found.errors, 0u) << found.messages;
+  EXPECT_EQ(found.world->machines.at(0).machine.links.at(0).name, "far");
 }
 
 }  // namespace

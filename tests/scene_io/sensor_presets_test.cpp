@@ -43,6 +43,22 @@ TEST(SensorPresets, FillInASensorAndOtherSensorsOfSdfAreIgnored) {
   EXPECT_EQ(lidar.noise.stddev, 0.005);
 }
 
+TEST(SensorPresets, HaveTheFansOfTheirDataSheets) {
+  const auto laser = [](const std::string& preset) {
+    const scene::Scene world = load(
+        "<model name=\"m\"><static>true</static><link name=\"l\"><sensor "
+        "name=\"s\"><navvy:preset>" +
+        preset + "</navvy:preset></sensor></link></model>");
+    return std::get<scene::Lidar>(world.machines[0].machine.links[0].sensors.at(0).kind);
+  };
+  const scene::Lidar lms = laser("sick_lms5xx"), rings = laser("spinning_128");
+  EXPECT_EQ(lms.vertical.samples, 1);
+  EXPECT_GT(lms.horizontal.samples, 361);
+  EXPECT_EQ(rings.vertical.samples, 128);
+  EXPECT_EQ(rings.horizontal.samples, 1024);
+  EXPECT_GT(rings.sweep, 0) << "it measures column by column";
+}
+
 TEST(SensorPresets, ASecondSensorOfAKindIsOneFileAndOneRowOfTheScene) {
   const test::Folder folder;
   std::ofstream(folder / "own.sdf")

@@ -143,6 +143,12 @@ TEST(ShippedFiles, BucketsNameACuttingEdgeThatResists) {
   EXPECT_EQ(buckets, 3);
 }
 
+TEST(ShippedFiles, SteeredMachinesHaveAnEncoderPerWheel) {
+  for (const char* name : {"steered_robot", "light_truck", "ew180", "dumper"})
+    EXPECT_GE(load_machine((kRoot / "vehicles" / name / "model.sdf").string()).encoders.size(), 4u)
+        << name;
+}
+
 // Listings in the documentation that are whole files are loaded as printed.
 TEST(ShippedFiles, ListingsOfTheDocumentationLoad) {
   const std::string directory = navvy::build_dir() + "/tutorial";
