@@ -63,11 +63,11 @@ void collect(const json& value, const std::string& path, Values& out) {
       collect(child, path.empty() ? key : path + "/" + key, out);
   if (!value.is_array()) return;
   for (std::size_t i = 0; i < value.size(); ++i) {
-    // Machines go by their names.
+    // Machines go by their names, below the key of their list: a name may be that of another key.
     const json& child = value[i];
     const bool named =
         child.is_object() && child.contains("machine") && child["machine"].is_string();
-    collect(child, named ? child["machine"].get<std::string>() : path + "/" + std::to_string(i),
+    collect(child, path + "/" + (named ? child["machine"].get<std::string>() : std::to_string(i)),
             out);
   }
 }
@@ -88,10 +88,12 @@ std::string number(double value) {
 void print_goals(const json& goals) {
   for (const json& goal : goals) {
     const bool least = goal.contains("at_least");
-    std::printf("goal %s: %s, is %s, wanted at %s %s\n",
+    // A value that could not be measured has a reason instead.
+    const std::string is = goal.contains("value") ? "is " + number(goal.at("value").get<double>())
+                                                  : printable(goal.at("reason").get<std::string>());
+    std::printf("goal %s: %s, %s, wanted at %s %s\n",
                 printable(goal.at("goal").get<std::string>()).c_str(),
-                goal.at("met").get<bool>() ? "met" : "MISSED",
-                number(goal.at("value").get<double>()).c_str(), least ? "least" : "most",
+                goal.at("met").get<bool>() ? "met" : "MISSED", is.c_str(), least ? "least" : "most",
                 number(goal.at(least ? "at_least" : "at_most").get<double>()).c_str());
   }
 }

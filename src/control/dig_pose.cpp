@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/dig_pose.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace navvy::control {
@@ -37,6 +38,17 @@ bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, 
       return true;
   }
   return false;
+}
+
+double heap_height(const SurfaceView& surface, const Vec2& p) {
+  constexpr double kHeapRadius = 0.6;  // around the dump point [m]
+  double highest = surface.height(p.x(), p.y());
+  for (int i = 0; i < 8; ++i)
+    for (const double r : {0.5 * kHeapRadius, kHeapRadius}) {
+      const double a = i * kPi / 4;
+      highest = std::max(highest, surface.height(p.x() + r * std::cos(a), p.y() + r * std::sin(a)));
+    }
+  return highest;
 }
 
 bool can_dig_at(const ArmKinematics& arm, double reach, double height, double pitch) {

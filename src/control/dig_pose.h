@@ -3,6 +3,7 @@
 #pragma once
 
 #include "control/arm_kinematics.h"
+#include "control/surface.h"
 
 namespace navvy::control {
 
@@ -46,6 +47,10 @@ SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W);
 /// clearance used. Returns false if even the smallest clearance is out of reach.
 bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, double ground,
                double clearance, ArmAngles& q, double& possible);
+
+/// Returns the height in W [m] of the highest ground around `p` (x, y in W [m]), within the foot of
+/// a heap that is dumped there.
+double heap_height(const SurfaceView& surface, const Vec2& p);
 
 /// Smallest distance from the swing axis to a dig [m]: clear of wheels and undercarriage.
 inline constexpr double kNearestDig = 3.0;

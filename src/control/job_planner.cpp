@@ -9,7 +9,6 @@ void JobCut::visit(Archive& a) {
   a("floor", floor);
   a.require(floor.size() >= 2, "floor", "a cut has at least two heights");
   a("rim", rim);
-  a("volume", volume);
   a("dump_at", dump_at);
   a("key", key);
 }

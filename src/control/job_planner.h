@@ -34,11 +34,9 @@ struct JobCut {
   /// Ends of the strip's centre line in W [m], the nearer and the farther one.
   Vec2 near = Vec2::Zero(), far = Vec2::Zero();
   /// Heights of its floor in W at equal distances from `near` to `far` [m], at least two.
-  std::vector<double> floor;
+  std::vector<double> floor = {0, 0};
   /// Height in W above which the bucket clears the sides of the pit while it swings [m].
   double rim = 0;
-  /// Volume above the floor [m3].
-  double volume = 0;
   /// Place (x, y) in W at which the soil is dumped [m].
   Vec2 dump_at = Vec2::Zero();
   /// Number of layer and direction; the same for the same cut on changed ground.
@@ -74,8 +72,8 @@ struct JobFault {
 struct JobPlan {
   /// The stations.
   std::vector<JobStation> stations;
-  /// Volume of the job [m3], and the part of it that no station reaches.
-  double volume = 0, unreachable = 0;
+  /// Volume of the job [m3].
+  double volume = 0;
   /// Faults that were found.
   std::vector<JobFault> faults;
 };

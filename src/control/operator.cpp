@@ -90,7 +90,8 @@ void Operator::State::make_activity() {
   active = present().activity(place);
 }
 
-/// Plans the paths of all steps on the ground at the program's start.
+/// Plans the paths of all steps on the ground at the program's start, up to the first step after
+/// which it is not known where the machine stands.
 void Operator::State::plan_ahead(const Observation& seen) {
   if (!place.planner) return;
   place.look(seen);
@@ -106,6 +107,8 @@ void Operator::State::plan_ahead(const Observation& seen) {
             "'" + name + "', step " + std::to_string(i + 1) + " (" + steps[i]->element() +
             "): no path on the ground as it lies when the program begins; it will look again then");
     }
+    // A job ends wherever its last station is.
+    if (steps[i]->needs_job_planner()) return;
     if (const std::optional<Pose> next = steps[i]->station(place.machine, X_WB, surface))
       X_WB = *next;
   }

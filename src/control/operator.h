@@ -28,9 +28,10 @@ namespace navvy::control {
 class Operator {
  public:
   /// Prepares `program` for `machine`. `name` is the machine's name in the scene, which messages
-  /// use; if it is empty, messages use the model's name. `planners` makes the path planner; it is
-  /// needed only if a step plans paths. @throws InputError if the machine lacks a part that the
-  /// program needs, or if a step plans paths and `planners` is empty.
+  /// use; if it is empty, messages use the model's name. `planners` makes the planners of paths and
+  /// of jobs; each is needed only if a step plans such. @throws InputError if the machine lacks a
+  /// part that the program needs, or if a step plans paths or jobs and `planners` cannot make their
+  /// planner.
   Operator(const scene::Machine& machine, const scene::Program& program, std::string name = "",
            const Planners& planners = {});
   ~Operator();
@@ -57,8 +58,8 @@ class Operator {
   std::string phase() const;
   /// Returns all paths planned so far, in the order in which they were planned. When the program
   /// begins, the operator plans one path for each step that needs one, starting at the pose that
-  /// the previous steps will lead to. It logs a warning for each step without a feasible path on
-  /// the initial ground.
+  /// the previous steps will lead to; steps after a job plan when their turn comes. It logs a
+  /// warning for each step without a feasible path on the initial ground.
   const std::vector<PlannedPath>& paths() const;
   /// Returns the reports of the completed steps, in order. If a step failed, its report is the last
   /// one. If the machine tips over or is buried after the last step, a second report of that step

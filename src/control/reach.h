@@ -25,7 +25,8 @@ class ReachCheck {
   /// Prepares the check of `program` for a machine whose base link starts at the pose
   /// `X_WB_at_start` in W. Messages contain `file` (the scene file) and `name` (the machine's name
   /// in the scene; if empty, the model's name). The machine, the program and the surface must
-  /// outlive this object. `planners` makes the path planner if a step plans paths.
+  /// outlive this object. `planners` makes the planners of paths and of jobs that steps need; a
+  /// step whose planner is not available reports that as a fault.
   ReachCheck(const scene::Machine& machine_in, const scene::Program& program,
              const Pose& X_WB_at_start, const SurfaceView& surface_in, std::string file,
              const std::string& name, const Planners& planners);
@@ -102,9 +103,9 @@ std::string held_text(const scene::Joint& joint, const vehicle::JointState& stat
 ///
 /// `X_WB` is the pose of the base link in W at the start, and `surface` the ground that the targets
 /// of digs and drives refer to. Messages contain `file` (the scene file) and `name` (the machine's
-/// name in the scene; if empty, the model's name). `planners` makes the path planner if a step
-/// plans paths. Lines about plans, such as the stations of a job, are appended to `notes`, which
-/// may be null.
+/// name in the scene; if empty, the model's name). `planners` makes the planners of paths and of
+/// jobs that steps need. Lines about plans, such as the stations of a job, are appended to `notes`,
+/// which may be null.
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program,
                                const Pose& X_WB, const SurfaceView& surface,
                                const std::string& file, const std::string& name = "",

@@ -82,6 +82,7 @@ class Fan {
     control::JobCut out;
     std::vector<double> floors;
     int first = -1, last = -1;
+    double volume = 0;  // above the floor [m3]
     const int samples = static_cast<int>((reach_.arm().longest() + 2 - kFaceBegins) / kSample);
     for (int k = 0; k <= samples; ++k) {
       const double r = kFaceBegins + k * kSample;
@@ -94,9 +95,9 @@ class Fan {
       if (!digs || top - *z < kLeastSoil) continue;
       if (first < 0) first = k;
       last = k;
-      out.volume += (top - *z) * width_ * kSample;
+      volume += (top - *z) * width_ * kSample;
     }
-    if (first < 0 || (last - first) * kSample < kLeastLength || out.volume < kWorth * capacity_)
+    if (first < 0 || (last - first) * kSample < kLeastLength || volume < kWorth * capacity_)
       return std::nullopt;
     out.near = centre_ + (kFaceBegins + first * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;

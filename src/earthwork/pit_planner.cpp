@@ -35,12 +35,11 @@ class PitPlanner final : public control::JobPlanner {
       out.volume = pit.volume().design;
       const double rise =
           X_WB.translation().z() - surface.height(X_WB.translation().x(), X_WB.translation().y());
-      Stations found = choose(job, pit, X_WB, rise, surface);
-      out.stations = found.stations;
-      out.unreachable = found.lost;
+      Choice found = choose(job, pit, X_WB, rise, surface);
+      out.stations = std::move(found.stations);
       count_cuts(job, pit, rise, surface, out);
       out.faults = check_pit(job, pit, surface);
-      check_stations(job, found, {arm_, rise}, surface, out.faults);
+      out.faults.insert(out.faults.end(), found.faults.begin(), found.faults.end());
     } catch (const InputError& error) {
       for (const Fault& fault : error.faults())
         out.faults.push_back({"polygon_m", fault.value, fault.rule, fault.remedy});
@@ -65,6 +64,12 @@ class PitPlanner final : public control::JobPlanner {
   }
 
  private:
+  /// Stations that were chosen, and their faults.
+  struct Choice {
+    std::vector<control::JobStation> stations;
+    std::vector<control::JobFault> faults;
+  };
+
   /// Returns the axes of the lanes along a heading, the one farthest from the spoil first.
   static std::vector<RetreatAxis> lanes(const control::PitJob& job, const PitShape& pit,
                                         double heading) {
@@ -90,9 +95,10 @@ class PitPlanner final : public control::JobPlanner {
   }
 
   /// Returns the stations along the best of the axes parallel and square to the longest edge: those
-  /// that leave the least soil, then those that reach the spoil, then the fewest, then the nearest.
-  Stations choose(const control::PitJob& job, const PitShape& pit, const Pose& X_WB, double rise,
-                  const control::SurfaceView& surface) const {
+  /// that leave the least soil, then those with the fewest faults, such as spoil out of reach, then
+  /// the fewest stations, then those whose first one is nearest to the machine.
+  Choice choose(const control::PitJob& job, const PitShape& pit, const Pose& X_WB, double rise,
+                const control::SurfaceView& surface) const {
     const std::vector<Vec2>& polygon = job.area.polygon;
     Vec2 longest = Vec2::Zero();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -102,7 +108,7 @@ class PitPlanner final : public control::JobPlanner {
     const double along = std::atan2(longest.y(), longest.x());
     const Digger digger{reach_, pit.ground() + rise + arm_.X_BS().translation().z(),
                         arm_.X_BS().translation().x()};
-    Stations best;
+    Choice best;
     std::array<double, 4> least{};
     for (int i = 0; i < 4; ++i) {
       Stations one = find_stations(job, pit, digger, lanes(job, pit, along + i * kPi / 2));
@@ -115,7 +121,7 @@ class PitPlanner final : public control::JobPlanner {
                                           static_cast<double>(faults.size()),
                                           static_cast<double>(one.stations.size()), away};
       if (i > 0 && !(cost < least)) continue;
-      best = std::move(one);
+      best = {std::move(one.stations), std::move(faults)};
       least = cost;
     }
     return best;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "earthwork/spoil_place.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,19 +9,7 @@
 namespace navvy::earthwork {
 namespace {
 
-constexpr double kSpacing = 0.5;     // of points along a windrow [m]
-constexpr double kHeapRadius = 0.6;  // around a point, whose highest ground counts [m]
-
-/// Returns the highest ground around a point [m].
-double heap_height(const control::SurfaceView& surface, const Vec2& p) {
-  double highest = surface.height(p.x(), p.y());
-  for (int i = 0; i < 8; ++i) {
-    const double a = i * kPi / 4;
-    highest = std::max(highest, surface.height(p.x() + kHeapRadius * std::cos(a),
-                                               p.y() + kHeapRadius * std::sin(a)));
-  }
-  return highest;
-}
+constexpr double kSpacing = 0.5;  // of points along a windrow [m]
 
 }  // namespace
 
@@ -41,7 +28,7 @@ std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKi
   std::optional<Vec2> best;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vec2& p : spoil_points(job)) {
-    const double height = heap_height(surface, p);
+    const double height = control::heap_height(surface, p);
     control::ArmAngles q;
     double possible = 0;
     if (height >= lowest || !control::dump_pose(arm, X_WS, p, height, job.dump_height, q, possible))

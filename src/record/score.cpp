@@ -121,6 +121,22 @@ void add_masses(const session::Session& session, const sim::ActivePlaces& active
                                   ledger.left_site[i] - ledger.inserted[i]);
 }
 
+/// Returns the judgement of the angle of the sides, of which `bound` [rad] is the largest error. An
+/// angle that cannot be measured misses the goal: nothing shows that the sides are as commanded.
+GoalResult judge_batter(const ShapeScore& shape, double bound) {
+  GoalResult out;
+  out.name = "batter_error_deg";
+  out.bound = degrees(bound);
+  if (!shape.batter || !shape.design_batter) {
+    out.reason = "cannot be measured, as fewer than 20 columns show the angle of the sides";
+    return out;
+  }
+  const double error = std::abs(*shape.batter - *shape.design_batter);
+  out.value = degrees(error);
+  out.met = error <= bound;
+  return out;
+}
+
 std::string number(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.4g", value);
@@ -148,7 +164,7 @@ Score measure_score(const session::Session& session, const sim::ActivePlaces& ac
   const heightfield::DesignSurface* design = session.design();
   add_volumes(surface, changed_rect(world.ground(), active.on_ground), design, out.inside,
               out.outside);
-  if (design != nullptr) out.shape = measure_shape(surface, *design, out.inside);
+  if (design != nullptr) out.shape = measure_shape(surface, *design);
   add_masses(session, active, out);
   out.bank_volume = earth.bank_volume;
   for (const session::Cycle& one : session.cycles()) out.moved += one.payload_dump;
@@ -171,17 +187,16 @@ Score measure_score(const session::Session& session) {
 }
 
 std::string GoalResult::text() const {
-  return name + " is " + number(value) + ", wanted is " + (at_least ? "at least " : "at most ") +
-         number(bound);
+  return name + " " + (value ? "is " + number(*value) : reason) + ", wanted is " +
+         (at_least ? "at least " : "at most ") + number(bound);
 }
 
 std::vector<GoalResult> judge(const Score& score, const scene::Goals& goals) {
   std::vector<GoalResult> out;
-  const auto add = [&](const char* name, const scene::Goal& goal, double value, bool at_least,
-                       double factor = 1) {
+  const auto add = [&](const char* name, const scene::Goal& goal, double value, bool at_least) {
     if (!goal.given) return;
     const bool met = at_least ? value >= goal.value : value <= goal.value;
-    out.push_back({name, value / factor, goal.value / factor, at_least, met});
+    out.push_back({name, value, goal.value, at_least, met, ""});
   };
   const ShapeScore shape = score.shape.value_or(ShapeScore{});
   add("completion", goals.completion, shape.completion, true);
@@ -191,10 +206,7 @@ std::vector<GoalResult> judge(const Score& score, const scene::Goals& goals) {
   add("over_dig_rms_m", goals.over_dig_rms, shape.over_rms, false);
   add("over_dig_max_m", goals.over_dig_max, shape.over_max, false);
   add("under_dig_rms_m", goals.under_dig_rms, shape.under_rms, false);
-  // A design without sides has no angle to miss.
-  const double batter =
-      shape.batter && shape.design_batter ? std::abs(*shape.batter - *shape.design_batter) : 0;
-  add("batter_error_deg", goals.batter_error, batter, false, scene::kDegree);
+  if (goals.batter_error.given) out.push_back(judge_batter(shape, goals.batter_error.value));
   add("outside_cut_m3", goals.outside_cut, score.outside.cut, false);
   add("collisions", goals.collisions, static_cast<double>(score.collisions), false);
   add("work_time_s", goals.work_time, score.work_time, false);

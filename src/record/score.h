@@ -124,12 +124,16 @@ Score measure_score(const session::Session& session);
 struct GoalResult {
   /// Name of the goal's element, with its unit: "over_dig_rms_m".
   std::string name;
-  /// Measured value and bound, in the unit of the name.
-  double value = 0, bound = 0;
+  /// Measured value, in the unit of the name; nothing if it cannot be measured.
+  std::optional<double> value;
+  /// Bound, in the unit of the name.
+  double bound = 0;
   /// True if the bound is the least allowed value; false if it is the largest.
   bool at_least = false;
-  /// True if the goal is met.
+  /// True if the goal is met; a value that cannot be measured misses it.
   bool met = false;
+  /// Why the value cannot be measured; empty if it can.
+  std::string reason;
   /// Returns the judgement as a sentence.
   std::string text() const;
 };

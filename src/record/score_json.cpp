@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 namespace navvy::record {
 namespace {
@@ -74,7 +75,7 @@ json score_json(const Score& score, const scene::Scene& scene) {
       {"inside", area_json(score.inside)},     {"outside", area_json(score.outside)},
       {"bank_volume_m3", score.bank_volume},   {"moved_kg", score.moved},
       {"work_time_s", score.work_time},        {"energy_j", score.energy},
-      {"collisions", score.collisions},        {"stations", score.stations},
+      {"collision_count", score.collisions},   {"stations", score.stations},
       {"distance_driven_m", score.base_moves}, {"balance_error_units", score.balance_error}};
   if (score.work_time > 0) {
     out["bank_volume_m3_per_h"] = score.bank_volume / score.work_time * kHour;
@@ -98,11 +99,15 @@ json score_json(const Score& score, const scene::Scene& scene) {
 
 json goal_list(const std::vector<GoalResult>& goals) {
   json out = json::array();
-  for (const GoalResult& one : goals)
-    out.push_back({{"goal", one.name},
-                   {"value", one.value},
-                   {one.at_least ? "at_least" : "at_most", one.bound},
-                   {"met", one.met}});
+  for (const GoalResult& one : goals) {
+    json row = {
+        {"goal", one.name}, {one.at_least ? "at_least" : "at_most", one.bound}, {"met", one.met}};
+    if (one.value)
+      row["value"] = *one.value;
+    else
+      row["reason"] = one.reason;
+    out.push_back(std::move(row));
+  }
   return out;
 }
 

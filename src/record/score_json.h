@@ -14,7 +14,8 @@ namespace navvy::record {
 /// machines. Values that cannot be formed, such as an energy per volume without a volume, are
 /// absent.
 nlohmann::json score_json(const Score& score, const scene::Scene& scene);
-/// Returns the judgements of goals as a JSON array.
+/// Returns the judgements of goals as a JSON array. A value that cannot be measured is absent, with
+/// its reason in its place.
 nlohmann::json goal_list(const std::vector<GoalResult>& goals);
 
 }  // namespace navvy::record

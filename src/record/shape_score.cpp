@@ -94,8 +94,12 @@ void add_volumes(const heightfield::Terrain& surface, const heightfield::CellRec
 }
 
 ShapeScore measure_shape(const heightfield::Terrain& surface,
-                         const heightfield::DesignSurface& design, const AreaScore& inside) {
+                         const heightfield::DesignSurface& design) {
   ShapeScore out;
+  const heightfield::DesignComparison volumes = against_design(surface, design);
+  out.area = volumes.area;
+  out.design_cut = volumes.design_cut;
+  out.design_fill = volumes.design_fill;
   ShapeSums sums;
   Regression sides;
   const double square = surface.cell() * surface.cell();
@@ -106,7 +110,6 @@ ShapeScore measure_shape(const heightfield::Terrain& surface,
                    now = surface.height(ix, iy);
       sums.add(start, now, wanted);
       const double depth = start - wanted;
-      (depth > 0 ? out.design_cut : out.design_fill) += std::abs(depth) * square;
       out.cut_area += depth > 0 ? square : 0;
       out.over_max = std::max(out.over_max, wanted - now);
       out.under_max = std::max(out.under_max, now - wanted);
@@ -115,7 +118,6 @@ ShapeScore measure_shape(const heightfield::Terrain& surface,
         sides.add(wanted, now, *steep);
     }
   if (sums.columns == 0) return out;
-  out.area = sums.columns * square;
   out.over_rms = std::sqrt(sums.over / sums.columns);
   out.under_rms = std::sqrt(sums.under / sums.columns);
   out.rms = std::sqrt((sums.over + sums.under) / sums.columns);
@@ -123,7 +125,7 @@ ShapeScore measure_shape(const heightfield::Terrain& surface,
   out.coverage = sums.to_do > 0 ? sums.covered / sums.to_do : 0;
   const double wanted = out.design_cut + out.design_fill;
   const double made =
-      out.design_cut >= out.design_fill ? inside.cut - inside.fill : inside.fill - inside.cut;
+      out.design_cut >= out.design_fill ? volumes.cut - volumes.fill : volumes.fill - volumes.cut;
   const double net = std::abs(out.design_cut - out.design_fill);
   out.volume_error = wanted > 0 ? (made - net) / wanted : 0;
   if (const std::optional<double> rate = sides.rate()) {

@@ -14,8 +14,8 @@ bool has_design(const heightfield::DesignSurface& design, int ix, int iy);
 /// height, and to `outside` for all others. `design` may be null.
 void add_volumes(const heightfield::Terrain& surface, const heightfield::CellRect& rect,
                  const heightfield::DesignSurface* design, AreaScore& inside, AreaScore& outside);
-/// Returns the comparison of `surface` with `design`. `inside` holds the volumes of its columns.
+/// Returns the comparison of `surface` with `design`.
 ShapeScore measure_shape(const heightfield::Terrain& surface,
-                         const heightfield::DesignSurface& design, const AreaScore& inside);
+                         const heightfield::DesignSurface& design);
 
 }  // namespace navvy::record

@@ -38,6 +38,8 @@ class Step {
   /// Returns the pit or pad that the step makes; nothing if it makes none. The score of a run
   /// compares the ground with it if the scene has no design surface.
   virtual std::optional<DesignArea> area() const { return std::nullopt; }
+  /// Returns the points (x, y) in W at which the step works [m]: its targets, digs and dumps.
+  virtual std::vector<Vec2> places() const { return {}; }
 
  protected:
   Step() = default;

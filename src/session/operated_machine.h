@@ -71,7 +71,8 @@ class OperatedMachine {
 
   /// Makes the operator of the machine with the index `machine` in the scene. `surface` and
   /// `programs` are shared by all operators; they and `world` must outlive this object. `planners`
-  /// makes the path planner if a step of the program plans paths.
+  /// makes the planners of paths and of jobs that steps of the program need. @throws InputError if
+  /// the machine lacks a part that the program needs, or if a planner that it needs cannot be made.
   OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
                   const Programs& programs, const control::Planners& planners);
 

@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "control/activities/dig/dig_area.h"
+#include "control/activities/go_to.h"
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
 #include "control/reach.h"
 #include "core/saved_state.h"
 #include "earthwork/pit_checks.h"
 #include "earthwork/pit_planner.h"
+#include "heightfield/design_surface.h"
 #include "log_lines.h"
 
 namespace navvy::earthwork {
@@ -149,22 +151,17 @@ struct PitMeasure {
 };
 PitMeasure measure(const heightfield::Ground& ground, const DigArea& step) {
   const heightfield::DesignSurface design = heightfield::design_of_area(*step.area(), ground, "");
-  const double square = ground.cell() * ground.cell();
-  double wanted = 0, dug = 0, over = 0, columns = 0;
-  PitMeasure out;
+  const heightfield::DesignComparison volumes = heightfield::against_design(ground, design);
+  double over = 0, columns = 0;
   for (int iy = design.rect.y0; iy < design.rect.y1; ++iy)
     for (int ix = design.rect.x0; ix < design.rect.x1; ++ix) {
       const auto z = static_cast<double>(design.at(ix, iy));
       if (std::isnan(z)) continue;
       ++columns;
-      wanted += (ground.start_height(ix, iy) - z) * square;
-      dug += (ground.start_height(ix, iy) - ground.height(ix, iy)) * square;
       over += std::pow(std::max(0.0, z - ground.height(ix, iy)), 2);
-      out.left += std::max(0.0, ground.height(ix, iy) - z) * square;
     }
-  out.volume_error = dug / wanted - 1;
-  out.over_rms = std::sqrt(over / columns);
-  return out;
+  const double wanted = volumes.design_cut - volumes.design_fill, dug = volumes.cut - volumes.fill;
+  return {dug / wanted - 1, std::sqrt(over / columns), volumes.under_dig};
 }
 
 control::testing::DigRig rig_of(const DigArea& step, const Pose& X_WM) {
@@ -203,6 +200,20 @@ TEST(DigArea, BacksFromStationToStation) {
                                      [](const auto& one) { return one.name == "stations"; });
   ASSERT_NE(stations, account.end());
   EXPECT_GE(stations->value, 2);
+}
+
+TEST(DigArea, LeavesPathsOfLaterStepsUntilItIsDone) {
+  control::GoTo near, away;
+  near.target = Vec2(-8, 0);
+  away.target = Vec2(-10, 0);
+  scene::Program program;
+  program.steps = {near, pit(2, 2, 0.6), away};
+  control::testing::DigRig rig(control::testing::ew180_like(), program, make_pose(-9, 0, 0),
+                               planners());
+  rig.step();
+  // Where the job ends is not known when the program begins.
+  ASSERT_EQ(rig.op.paths().size(), 1u);
+  EXPECT_EQ(rig.op.paths()[0].step, 1);
 }
 
 TEST(DigArea, ResumesBitIdenticallyInACut) {

@@ -76,6 +76,41 @@ TEST_F(ScoreTest, ComparesUntouchedGroundWithAPit) {
   EXPECT_EQ(goals[1].text(), "over_dig_max_m is 0, wanted is at most 0.01");
 }
 
+TEST_F(ScoreTest, MissesAGoalOfSidesWhoseAngleNoColumnShows) {
+  // Vertical sides cover no column.
+  const scene::Scene scene = site(
+      "<navvy:design><area><polygon_m>1 1 3 1 3 2 1 2</polygon_m><depth_m>0.5</depth_m>"
+      "<batter_deg>90</batter_deg></area></navvy:design>"
+      "<navvy:goals><batter_error_deg>5</batter_error_deg></navvy:goals>");
+  const Session session(scene, device_);
+  const record::Score score = record::measure_score(session);
+  ASSERT_TRUE(score.shape.has_value());
+  EXPECT_FALSE(score.shape->batter.has_value());
+  const std::vector<record::GoalResult> goals =
+      record::judge(score, session.world().description().goals);
+  ASSERT_EQ(goals.size(), 1u);
+  EXPECT_FALSE(goals[0].met);
+  EXPECT_FALSE(goals[0].value.has_value());
+  EXPECT_EQ(goals[0].text(),
+            "batter_error_deg cannot be measured, as fewer than 20 columns show the angle of the "
+            "sides, wanted is at most 5");
+}
+
+TEST_F(ScoreTest, JudgesSidesWhoseAngleIsKnown) {
+  // Untouched ground where sides of 45 deg are commanded.
+  const scene::Scene scene = site(
+      "<navvy:design><area><polygon_m>1 1 3 1 3 2 1 2</polygon_m><depth_m>0.5</depth_m>"
+      "<batter_deg>45</batter_deg></area></navvy:design>"
+      "<navvy:goals><batter_error_deg>5</batter_error_deg></navvy:goals>");
+  const Session session(scene, device_);
+  const std::vector<record::GoalResult> goals =
+      record::judge(record::measure_score(session), session.world().description().goals);
+  ASSERT_EQ(goals.size(), 1u);
+  EXPECT_FALSE(goals[0].met);
+  ASSERT_TRUE(goals[0].value.has_value());
+  EXPECT_NEAR(*goals[0].value, 45, 1);
+}
+
 TEST_F(ScoreTest, MeasuresTheDistanceDrivenAndKeepsItInSnapshots) {
   const scene::Scene scene = site(
       "<include><uri>model://robot</uri><pose>-3 0 0 0 0 0</pose><navvy:program><drive_to>"

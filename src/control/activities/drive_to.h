@@ -39,6 +39,8 @@ struct DriveTo final : ActivityStep, DriveGoal {
   void check(const scene::StepSource& source) const;
   /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
+  /// Returns the target.
+  std::vector<Vec2> places() const override { return {target}; }
   /// Returns an activity with the phases "drive" and "back_off". It commands only the drive.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   /// Reports an error if even a machine that rolls without slip would end too far from the target.

@@ -97,9 +97,11 @@ class Going final : public ActivityWith<Memory> {
   void begin(const Observation& seen) override {
     look(seen);
     const PlanePose at = plane_pose(seen.X_WB);
-    // At most one of this step's plans exists so far: the one made when the program began.
+    // Paths of this step so far were planned when the program began, in an earlier round of a
+    // repeat, or for an earlier station of a job, which is another target.
     for (const PlannedPath& ahead : place_.paths)
-      if (ahead.step == place_.step) m.path = ahead.path, m.plans = 1;
+      if (ahead.step == place_.step && arrived(ahead.path.at(ahead.path.length())))
+        m.path = ahead.path, m.plans = 1;
     if (m.plans == 0 || arrived(at)) return;
     const PlanePose& from = m.path.start();
     // `remainder` leaves a turn in -pi to pi, so that whole turns do not count.

@@ -63,6 +63,8 @@ struct GoTo final : ActivityStep {
   void check(const scene::StepSource& source) const;
   /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
+  /// Returns the target.
+  std::vector<Vec2> places() const override { return {target}; }
   /// Returns true: the step plans paths.
   bool needs_planner() const override { return true; }
   /// Returns the query of the path that is planned when the program begins.

@@ -49,6 +49,9 @@ void Repeat::check(const scene::StepSource& source) {
   if (has_load && into.empty())
     source.error("load_kg", source.written("load_kg"), "needs the machine that is loaded",
                  "name it in <into>");
+  if (!into.empty() && !has_load)
+    source.error("into", source.written("into"), "needs the mass at which no round begins",
+                 "give it in <load_kg>, or leave out <into>");
 }
 
 std::unique_ptr<Activity> Repeat::activity(OperatorContext& place) const {

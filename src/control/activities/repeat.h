@@ -40,7 +40,7 @@ struct Repeat final : ActivityStep {
     f("load_kg", load, {1, 1e6}, "Mass of soil in the beds of `into` at which no round begins.",
       scene::given(has_load));
   }
-  /// Reports an error if no end is given, or a mass without its machine.
+  /// Reports an error if no end is given, or a mass without its machine or the reverse.
   void check(const scene::StepSource& source);
   /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }

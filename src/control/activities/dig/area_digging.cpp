@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "control/activities/dig/dig.h"
+#include "control/activities/dig/seen_surface.h"
 #include "control/activities/drive_to.h"
 #include "control/activities/go_to.h"
 #include "control/activities/swing.h"
@@ -26,14 +27,6 @@ constexpr int kMostRepeats = 2;
 // Share of the commanded volume: with more left, the pit is not done, as for a trench.
 constexpr double kUndone = 0.15;
 
-/// Calls `use` with the surface that the operator sees: the view given, or the resting ground.
-template <class Use>
-auto with_surface(const Observation& seen, const Use& use) {
-  if (seen.surface != nullptr) return use(*seen.surface);
-  const GroundSurfaceView resting(*seen.ground);
-  return use(static_cast<const SurfaceView&>(resting));
-}
-
 }  // namespace
 
 void AreaMemory::visit(Archive& a) {
@@ -45,15 +38,12 @@ void AreaMemory::visit(Archive& a) {
   a("cut", cut);
   a("cuts", cuts);
   a("failed", failed);
-  a("target", target);
-  a.ranged("planned", planned, 0, 3);
+  a.ranged("way", way, Way::kNone, Way::kBack);
 }
 
 AreaDigging::~AreaDigging() = default;
 
 void AreaDigging::begin(const Observation& seen) {
-  // A cut without a floor could not be saved.
-  m.cut.floor = {0, 0};
   const JobPlan plan = with_surface(seen, [&](const SurfaceView& surface) {
     return place_.jobs->plan(job_, seen.X_WB, surface);
   });
@@ -68,32 +58,32 @@ bool AreaDigging::stands_at(const Observation& seen, const PlanePose& pose) cons
 }
 
 void AreaDigging::aim(const Observation& seen) {
-  m.target = m.stations[static_cast<std::size_t>(m.station)];
-  const PlanePose at = plane_pose(seen.X_WB);
+  using Way = AreaMemory::Way;
+  const PlanePose at = plane_pose(seen.X_WB), &to = station().at;
   const Vec2 ahead(std::cos(at.yaw), std::sin(at.yaw)), across(-ahead.y(), ahead.x());
-  const Vec2 way = m.target.at.p - at.p;
-  const bool straight = std::abs(way.dot(across)) <= kAside &&
-                        std::abs(std::remainder(at.yaw - m.target.at.yaw, 2 * kPi)) <= kTurned;
-  m.planned = !straight ? 1 : way.dot(ahead) >= 0 ? 2 : 3;
+  const Vec2 line = to.p - at.p;
+  const bool straight = std::abs(line.dot(across)) <= kAside &&
+                        std::abs(std::remainder(at.yaw - to.yaw, 2 * kPi)) <= kTurned;
+  m.way = !straight ? Way::kPlanned : line.dot(ahead) >= 0 ? Way::kAhead : Way::kBack;
 }
 
 void AreaDigging::make_part() {
   part_.reset();
   if (phase_index() == kTurn) {
     part_step_ = std::make_unique<Swing>(0);
-  } else if (phase_index() == kDrive && m.planned == 1) {
+  } else if (phase_index() == kDrive && m.way == AreaMemory::Way::kPlanned) {
     auto step = std::make_unique<GoTo>();
-    step->target = m.target.at.p;
-    step->heading = m.target.at.yaw;
+    step->target = station().at.p;
+    step->heading = station().at.yaw;
     step->speed = step_.speed;
     step->tolerance = kAtStation;
     part_step_ = std::move(step);
   } else if (phase_index() == kDrive) {
     auto step = std::make_unique<DriveTo>();
-    step->target = m.target.at.p;
-    step->heading = m.target.at.yaw;
+    step->target = station().at.p;
+    step->heading = station().at.yaw;
     step->has_heading = true;
-    step->speed = m.planned == 2 ? step_.speed : -step_.speed;
+    step->speed = m.way == AreaMemory::Way::kAhead ? step_.speed : -step_.speed;
     step->tolerance = kAtStation;
     part_step_ = std::move(step);
   } else {
@@ -101,7 +91,6 @@ void AreaDigging::make_part() {
     step->from = m.cut.near;
     step->to = m.cut.far;
     step->floor = m.cut.floor;
-    step->is_cut = true;
     step->rim = m.cut.rim;
     step->width = place_.arm->bucket().width;
     step->depth = job_.pass_depth;
@@ -133,9 +122,8 @@ bool AreaDigging::select_cut(const Observation& seen) {
 bool AreaDigging::go_on(const Observation& seen) {
   const auto stations = static_cast<std::int64_t>(m.stations.size());
   if (m.station >= stations) return conclude(seen);
-  const PlanePose& at = m.stations[static_cast<std::size_t>(m.station)].at;
   // Cuts that were begun here mean that the machine has arrived, wherever digging has moved it.
-  if (m.begun.empty() && phase_index() != kDrive && !stands_at(seen, at)) {
+  if (m.begun.empty() && phase_index() != kDrive && !stands_at(seen, station().at)) {
     // The arm points ahead while the machine drives.
     enter(phase_index() == kTurn ? kDrive : kTurn);
     if (phase_index() == kDrive) aim(seen);
@@ -152,7 +140,7 @@ bool AreaDigging::go_on(const Observation& seen) {
   return false;
 }
 
-bool AreaDigging::end_part(const Observation& seen) {
+bool AreaDigging::end_part() {
   const StepState state = part_->state();
   const std::string reason = part_->reason();
   part_.reset();
@@ -166,7 +154,6 @@ bool AreaDigging::end_part(const Observation& seen) {
   ++m.failed;
   place_.warn("the cut from " + place_text(m.cut.far) + " to " + place_text(m.cut.near) +
               " is left: " + reason);
-  (void)seen;
   return false;
 }
 
@@ -174,7 +161,7 @@ bool AreaDigging::update(const Observation& seen, double dt, Command& out) {
   if (part_) {
     const bool over = part_->advance(seen, dt, out);
     if (const CycleEvent event = part_->take_event(); event != CycleEvent::kNone) tell(event);
-    return over && end_part(seen);
+    return over && end_part();
   }
   return go_on(seen);
 }
@@ -197,7 +184,7 @@ std::vector<Measurement> AreaDigging::account(const Observation& seen) const {
   const JobVolume volume = with_surface(
       seen, [&](const SurfaceView& surface) { return place_.jobs->volume(job_, surface); });
   return {{"stations", static_cast<double>(m.stations.size())},
-          {"station", static_cast<double>(m.station)},
+          {"stations_done", static_cast<double>(m.station)},
           {"cuts", static_cast<double>(m.cuts)},
           {"cuts_failed", static_cast<double>(m.failed)},
           {"design_volume_m3", volume.design},
@@ -210,6 +197,9 @@ void AreaDigging::visit(Archive& a) {
   std::int64_t running = part_ ? 1 : 0;
   a("running", running);
   a.require(running == 0 || phase_index() != kNext, "running", "no part runs in this phase");
+  // A part is made for the present station.
+  a.require(running == 0 || m.station < static_cast<std::int64_t>(m.stations.size()), "station",
+            "a part runs, but all stations are done");
   if (a.loading()) {
     part_.reset();
     part_step_.reset();

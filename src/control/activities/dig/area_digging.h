@@ -2,6 +2,7 @@
 // The activity that carries out a dig_area step. Private to the dig.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,16 +19,21 @@ struct AreaMemory {
   std::vector<JobStation> stations;
   /// Index of the present station.
   std::int64_t station = 0;
-  /// Keys of the cuts that were begun at the present station; a cut that was repeated twice.
+  /// Keys of the cuts that were begun at the present station, one entry each time.
   std::vector<std::int64_t> begun;
   /// The cut that runs.
   JobCut cut;
   /// Number of cuts made so far, and of those that failed.
   std::int64_t cuts = 0, failed = 0;
-  /// Station to which the machine drives, and how: 1 along a planned path, 2 straight ahead, 3
-  /// straight back; 0 before the first drive.
-  JobStation target;
-  std::int64_t planned = 0;
+  /// Way of driving to a station.
+  enum class Way : std::uint8_t {
+    kNone,     ///< before the first drive
+    kPlanned,  ///< along a planned path
+    kAhead,    ///< straight ahead
+    kBack      ///< straight back
+  };
+  /// The way to the present station.
+  Way way = Way::kNone;
 
   /// Saves or loads all fields.
   void visit(Archive& a);
@@ -48,8 +54,8 @@ class AreaDigging final : public ActivityWith<AreaMemory> {
   void begin(const Observation& seen) override;
   /// Returns the name of the phase of the running part.
   const char* phase() const override;
-  /// Returns numbers of stations, cuts and cycles, and the commanded volume with what is left of
-  /// it.
+  /// Returns the numbers of stations, of those that are done, of cuts and of failed ones, and the
+  /// commanded volume with what is left of it.
   std::vector<Measurement> account(const Observation& seen) const override;
   /// Saves or loads the state and the running part.
   void visit(Archive& a) override;
@@ -69,9 +75,11 @@ class AreaDigging final : public ActivityWith<AreaMemory> {
   /// Sets up the drive to the present station: straight if that leads there, else planned.
   void aim(const Observation& seen);
   /// Handles the end of the running part. Returns true when the step has failed.
-  bool end_part(const Observation& seen);
+  bool end_part();
   /// Ends the step by what is left.
   bool conclude(const Observation& seen);
+  /// Returns the present station.
+  const JobStation& station() const { return m.stations[static_cast<std::size_t>(m.station)]; }
   /// Makes step and activity of the part of the present phase, whose state is new.
   void make_part();
 

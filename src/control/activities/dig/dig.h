@@ -55,11 +55,11 @@ struct Dig final : ActivityStep {
   /// one [m]; `depth` is then the largest depth below the present ground. Empty: a level trench.
   /// Not an element of scenes: a job sets it for its cuts.
   std::vector<double> floor;
-  /// True for a cut of a job: soil that is left is no failure, and the floor is not cleaned up. Not
-  /// an element of scenes.
-  bool is_cut = false;
   /// Height in W above which the bucket swings [m]; used if `is_cut`.
   double rim = 0;
+  /// Returns true for a cut of a job: soil that is left is no failure, and the floor is not cleaned
+  /// up.
+  bool is_cut() const { return !floor.empty(); }
 
   /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {
@@ -87,6 +87,8 @@ struct Dig final : ActivityStep {
   void check(const scene::StepSource& source);
   /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
+  /// Returns the ends of the trench and the place of the spoil.
+  std::vector<Vec2> places() const override { return {from, to, dump_at}; }
   /// Returns true: digging uses the arm.
   bool needs_arm() const override { return true; }
   /// Returns an activity with the phases of the digging cycle, followed by a final look at the

@@ -42,6 +42,13 @@ std::optional<scene::DesignArea> DigArea::area() const {
   return out;
 }
 
+std::vector<Vec2> DigArea::places() const {
+  std::vector<Vec2> out = polygon;
+  out.push_back(dump_at);
+  if (has_dump_to) out.push_back(dump_to);
+  return out;
+}
+
 PitJob DigArea::job() const {
   return {area().value_or(scene::DesignArea{}), dump_at, has_dump_to ? dump_to : dump_at,
           dump_height, pass_depth};

@@ -75,6 +75,8 @@ struct DigArea final : ActivityStep {
   const char* element() const override { return kElement; }
   /// Returns the pit.
   std::optional<scene::DesignArea> area() const override;
+  /// Returns the corners of the floor and the ends of the windrow.
+  std::vector<Vec2> places() const override;
   /// Returns true: digging uses the arm.
   bool needs_arm() const override { return true; }
   /// Returns true: the drive to the first station is planned.

@@ -73,23 +73,23 @@ DigPlan::DigPlan(const Dig& dig, const TrenchLine& line, double scoop_volume,
   for (int i = 0; i < samples(); ++i) start_[static_cast<std::size_t>(i)] = height(surface, at(i));
   // Nothing has been refused yet.
   deepest_.assign(start_.size(), dig.depth);
-  if (dig_.floor.empty()) return;
+  if (!dig_.is_cut()) return;
   for (int i = 0; i < samples(); ++i) deepest_[static_cast<std::size_t>(i)] = floor_depth(i);
   dig_.depth = std::max(kTolerance, *std::max_element(deepest_.begin(), deepest_.end()));
 }
 
 double DigPlan::floor_depth(int i) const {
-  if (dig_.floor.empty()) return dig_.depth;
+  if (!dig_.is_cut()) return dig_.depth;
   return std::max(0.0, start_[static_cast<std::size_t>(i)] - between(dig_.floor, at(i)));
 }
 
 double DigPlan::floor_height(double s, double level) const {
   const double pass = start_height(s) - level;
-  return dig_.floor.empty() ? pass : std::max(pass, between(dig_.floor, s));
+  return dig_.is_cut() ? std::max(pass, between(dig_.floor, s)) : pass;
 }
 
 double DigPlan::design_volume() const {
-  if (dig_.floor.empty()) return length_ * dig_.width * dig_.depth;
+  if (!dig_.is_cut()) return length_ * dig_.width * dig_.depth;
   double sum = 0;
   // The first sample has no piece before it, as in volume_above.
   for (int i = 1; i < samples(); ++i)
@@ -117,7 +117,7 @@ double DigPlan::height(const SurfaceView& surface, double s) const {
 double DigPlan::highest_beside(const SurfaceView& surface, double s) const {
   const Vec2 across(-along_.y(), along_.x());
   // From the wall outward, on both sides.
-  double out = dig_.is_cut ? std::max(dig_.rim, start_height(s)) : start_height(s);
+  double out = dig_.is_cut() ? std::max(dig_.rim, start_height(s)) : start_height(s);
   for (int i = 0; i * kSample <= kBeside + 1e-9; ++i)
     for (const double side : {-1.0, 1.0}) {
       const Vec2 p = point(s) + side * (0.5 * dig_.width + i * kSample) * across;
@@ -280,7 +280,7 @@ Scoop DigPlan::next(const SurfaceView& surface, bool hindered) const {
     const double rest = volume_above(surface, level);
     above = level;
     // What is left of the last slice, if no more than a load, is the clean-up's.
-    const double worth = k < slices() ? kWorth : dig_.is_cut ? kWorthCut : 1 + kOverload;
+    const double worth = k < slices() ? kWorth : dig_.is_cut() ? kWorthCut : 1 + kOverload;
     if (rest < worth * scoop_volume_) continue;
     // A scoop begins behind what lies thin on the floor, unless nothing else is left.
     for (const double least : {thick, kTolerance})
@@ -311,8 +311,6 @@ void DigPlan::visit(Archive& a) {
   a("width", dig_.width);
   a("dump_height", dig_.dump_height);
   a("pass_depth", dig_.pass_depth);
-  // Only cuts of jobs have a floor of their own; trenches keep their bytes.
-  if (dig_.is_cut) a("floor", dig_.floor);
   a("line", line_);
   a("scoop_volume", scoop_volume_);
   a("start", start_);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "control/activities/dig/fill.h"
+#include "control/activities/dig/seen_surface.h"
 #include "control/dig_pose.h"
 #include "control/reach.h"
 
@@ -56,28 +57,8 @@ constexpr double kLeastGain = 0.8, kMostGain = 1.25;
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
 constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.03;
-constexpr double kHeapRadius = 0.6;  // around the dump point [m]
 // During the return swing the arm comes down after this share of the swing.
 constexpr double kArmAfterSwing = 0.4;
-
-/// Returns the highest ground around a point [m].
-double heap_height(const SurfaceView& surface, const Vec2& p) {
-  double highest = surface.height(p.x(), p.y());
-  for (int i = 0; i < 8; ++i)
-    for (const double r : {0.5 * kHeapRadius, kHeapRadius}) {
-      const double a = i * kPi / 4;
-      highest = std::max(highest, surface.height(p.x() + r * std::cos(a), p.y() + r * std::sin(a)));
-    }
-  return highest;
-}
-
-/// Returns the surface that the operator sees: the view given, or the resting ground.
-template <class Use>
-auto with_surface(const Observation& seen, Use use) {
-  if (seen.surface) return use(*seen.surface);
-  const GroundSurfaceView resting(*seen.ground);
-  return use(static_cast<const SurfaceView&>(resting));
-}
 
 }  // namespace
 
@@ -104,7 +85,8 @@ void Digging::begin(const Observation& seen) {
 
 bool Digging::plan_scoop(const Observation& seen) {
   const double lack = lacking(seen);
-  if (lack <= kLoaded * dig_.load && dig_.has_load) return false;
+  // Without a stated mass the bed never has enough.
+  if (lack <= kLoaded * dig_.load) return false;
   // Both limits end the dig whatever the plan still sees.
   if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty)
     return false;
@@ -113,7 +95,7 @@ bool Digging::plan_scoop(const Observation& seen) {
   m.cleaning = 0;
   // Soil that fell back is spread along the whole floor, too thin for a scoop of the plan; one or
   // two passes clean it up.
-  if (!scoop.any && !dig_.is_cut && may_clean(seen)) {
+  if (!scoop.any && !dig_.is_cut() && may_clean(seen)) {
     scoop = with_surface(
         seen, [&](const SurfaceView& surface) { return plan_.clean_up(surface, m.hindered != 0); });
     m.cleaning = scoop.any ? 1 : 0;
@@ -277,7 +259,7 @@ void Digging::shake(const Observation& seen) {
 }
 
 void Digging::look_round(const Observation& seen) {
-  if (dig_.is_cut) return enter(kLook);
+  if (dig_.is_cut()) return enter(kLook);
   // Bucket half closed and aside, while loose soil comes to rest.
   ArmAngles q = place_.arm_angles();
   q[2] = std::clamp(q[2] + std::remainder(-0.75 * kPi - arm_.forward(q).angle, 2 * kPi),
@@ -314,7 +296,7 @@ void Digging::start_scoop(const Observation& seen) {
 bool Digging::end_cycle(const Observation& seen) {
   // After a pause, look again: soil may have slid into the trench, or come to rest there. The cuts
   // of a job are looked at together.
-  if (!dig_.is_cut && (!move(seen) || phase_time() < kRest)) return false;
+  if (!dig_.is_cut() && (!move(seen) || phase_time() < kRest)) return false;
   if (falls_short_of_receiver(seen)) return true;
   if (plan_scoop(seen)) {
     go_to_scoop(kReturn, seen);
@@ -354,7 +336,7 @@ bool Digging::conclude(const Observation& seen) {
   if (m.empty_scoops >= kMostEmpty && undone)
     return fall_short(StepState::kStalled,
                       "three empty scoops in a row: nothing more comes into the bucket; " + left);
-  if (dig_.is_cut) return true;
+  if (dig_.is_cut()) return true;
   // A program that sets a number of cycles wants these, not the trench.
   if (dig_.max_cycles && cycles() >= *dig_.max_cycles) {
     remark("made its " + std::to_string(*dig_.max_cycles) + " cycles; " + left);

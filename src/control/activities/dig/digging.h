@@ -44,10 +44,10 @@ struct DiggingMemory {
   /// Bank volume (`scoop_volume` [m3]) and mass (`full_mass` [kg]) of the soil in a bucket that
   /// counts as full.
   double scoop_volume = 0, full_mass = 0;
-  /// Mass that the current scoop aims at when a bed is loaded to a stated mass [kg].
+  /// Mass that the current scoop shall bring when a bed is loaded to a stated mass [kg].
   double wanted = 0;
-  /// Mass that the last scoop brought / mass that it aimed at; the curl adds to what the drag sees
-  /// [-].
+  /// Mass that a scoop brought / payload at which its curl was to begin [-]; learned from the last
+  /// scoop.
   double gain = 1;
   /// TipPath::lift when the drag began [m].
   double lift_before = 0;
@@ -156,7 +156,7 @@ class Digging final : public ActivityWith<DiggingMemory> {
   bool end_cycle(const Observation& seen);
   /// Returns the mass that the bed still lacks [kg]; infinity without a stated mass.
   double lacking(const Observation& seen) const;
-  /// Returns the mass that the current scoop aims at [kg].
+  /// Returns the payload that counts as full in the drag [kg].
   double aimed_mass() const { return dig_.has_load ? m.wanted / m.gain : m.full_mass; }
   /// Sets the result of a step that loads a bed. Always returns true.
   bool conclude_load(const Observation& seen);

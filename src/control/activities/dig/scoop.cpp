@@ -78,13 +78,13 @@ bool Digging::overdue(double limit) const {
 double Digging::floor_height() const {
   const double below = arm_.below_tip(m.tip.reached),
                floor = plan_.floor_height(m.s, m.scoop_level);
-  if (!dig_.is_cut || below < kHeelDown) return floor + below;
+  if (!dig_.is_cut() || below < kHeelDown) return floor + below;
   // The heel is the lowest point, behind the edge, where the floor of a cut may be higher.
   return std::max(floor, plan_.floor_height(m.s + kHeel, m.scoop_level)) + below;
 }
 
 double Digging::attack() const {
-  if (dig_.floor.empty()) return kAttack;
+  if (!dig_.is_cut()) return kAttack;
   const double rise =
       plan_.floor_height(m.s + kBody, m.scoop_level) - plan_.floor_height(m.s, m.scoop_level);
   return std::clamp(std::atan2(rise, kBody) + kFollow, kAttack, kSteepest);
@@ -172,7 +172,7 @@ bool Digging::curl(const Observation& seen, double dt, Command& out) {
   // First the bucket rotates; then it leaves the ground straight up.
   // Out of a pit over its rim, as the carry moves outward, where its sides rise.
   const double surface = plan_.start_height(m.s);
-  const double clear = dig_.is_cut ? std::max(surface, dig_.rim) : surface;
+  const double clear = dig_.is_cut() ? std::max(surface, dig_.rim) : surface;
   const double top = clear + kOut + arm_.below_tip(m.tip.reached);
   m.tip.z = mix(turned, std::max(turned, top), smooth((m.progress - kRises) / (1 - kRises)));
   follow_tip(seen, dt, out);
