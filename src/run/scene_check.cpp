@@ -12,6 +12,7 @@
 #include "planner/map_path_planner.h"
 #include "record/map_recorder.h"
 #include "run/slice_check.h"
+#include "sensor/make_sensors.h"
 #include "session/program_check.h"
 #include "sim/start_check.h"
 
@@ -75,6 +76,13 @@ void add_lines(std::vector<std::string>& lines, const std::string& text) {
   for (std::string line; std::getline(in, line);) lines.push_back(line);
 }
 
+/// Adds a fault, unless the same one is there already.
+void add_new(std::vector<Fault>& faults, Fault fault) {
+  if (std::none_of(faults.begin(), faults.end(),
+                   [&](const Fault& one) { return one.text() == fault.text(); }))
+    faults.push_back(std::move(fault));
+}
+
 }  // namespace
 
 SceneCheck check_scene(const scene::Scene& scene) {
@@ -84,6 +92,8 @@ SceneCheck check_scene(const scene::Scene& scene) {
                                        &out.notes);
   for (Fault& fault : record::check_records(scene)) out.faults.push_back(std::move(fault));
   for (Fault& fault : check_slices(scene)) out.faults.push_back(std::move(fault));
+  // The check of the programs has reported a ground that cannot be made.
+  for (Fault& fault : sensor::check_sensors(scene)) add_new(out.faults, std::move(fault));
   // The machines settle for a second on resting soil, without a device.
   sim::StartCheck start = sim::check_start(scene);
   add_lines(out.notes, start.terrain);
@@ -96,10 +106,7 @@ SceneCheck check_scene(const scene::Scene& scene) {
     else if (!start.without_wheels[m].empty())
       out.notes.push_back("'" + scene.machines[m].name + "' " + start.without_wheels[m]);
   // The check of the programs has reported a ground that cannot be made.
-  for (Fault& fault : start.faults)
-    if (std::none_of(out.faults.begin(), out.faults.end(),
-                     [&](const Fault& one) { return one.text() == fault.text(); }))
-      out.faults.push_back(std::move(fault));
+  for (Fault& fault : start.faults) add_new(out.faults, std::move(fault));
   return out;
 }
 

@@ -20,9 +20,10 @@ struct SceneCheck {
 };
 
 /// Checks what the scene file alone does not show: whether machines can reach the targets of their
-/// programs, whether records can be written, whether machines overlap, and how machines behave
-/// during the first second on the ground. Needs no OpenCL device. Errors are returned; the only
-/// exception thrown is std::bad_alloc.
+/// programs, whether records can be written, whether sensors have a free view and a rate that the
+/// steps allow, whether machines overlap, and how machines behave during the first second on the
+/// ground. Needs no OpenCL device. Errors are returned; the only exception thrown is
+/// std::bad_alloc.
 SceneCheck check_scene(const scene::Scene& scene);
 
 }  // namespace navvy::run

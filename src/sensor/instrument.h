@@ -57,8 +57,6 @@ class Instrument {
   virtual std::vector<MeasuredQuantity> quantities() const = 0;
   /// Returns true if it uses the ray scene, which is then up to date in `measure`.
   virtual bool looks() const { return false; }
-  /// Returns true if it must not be inside a body or below the ground.
-  virtual bool needs_view() const { return looks(); }
   /// Returns the number of columns that are measured one after the other during the sweep; 1 for a
   /// sensor that measures at one instant.
   virtual int columns() const { return 1; }

@@ -7,27 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/ray_tree.h"
 #include "sensor/ball_grid.h"
 #include "sensor/ground_rays.h"
-#include "sensor/shape_mesh.h"
 #include "sim/cylinder_shapes.h"
 #include "sim/visible_soil.h"
 
 namespace navvy::sensor {
 namespace {
-
-using geometry::TriangleMesh;
-
-/// A link as beams meet it.
-struct Body {
-  sim::LinkHandle link;          ///< the link, for its pose
-  int machine, index;            ///< indices of machine and link
-  geometry::RayTree tree;        ///< triangles in the link's frame
-  Vec3 middle, half;             ///< box around the triangles, in the link's frame [m]
-  Pose X_LW = Pose::Identity();  ///< pose of W in the link's frame
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< box around the body in W [m]
-};
 
 /// A round bar between two points.
 struct Bar {
@@ -36,26 +22,6 @@ struct Bar {
   double radius;  ///< [m]
   int machine;    ///< index of the machine
 };
-
-/// Returns what a link looks like: visuals, else collisions and shells.
-TriangleMesh look_of(const scene::Machine& machine, const scene::Link& link) {
-  TriangleMesh out;
-  for (const scene::Visual& visual : link.visuals)
-    append(mesh_of(visual.geometry), visual.X_LV, out);
-  if (!link.visuals.empty()) return out;
-  for (const scene::Collision& collision : link.collisions)
-    // A plane that collides is the rock under the whole site.
-    if (collision.geometry.kind != scene::Geometry::Kind::kPlane)
-      append(mesh_of(collision.geometry), collision.X_LC, out);
-  for (const scene::Shell& shell : machine.shells)
-    if (shell.link == link.name) {
-      TriangleMesh steel;
-      steel.vertices = shell.vertices;
-      steel.triangles = shell.triangles;
-      append(steel, Pose::Identity(), out);
-    }
-  return out;
-}
 
 /// Returns true if a beam enters the box within `reach` [m]; `inverse` has finite components.
 bool meets_box(const Vec3& low, const Vec3& high, const Vec3& p, const Vec3& inverse,
@@ -100,27 +66,18 @@ double meet(const Bar& bar, const Vec3& p, const Vec3& d) {
 }  // namespace
 
 struct RayScene::State {
-  explicit State(const sim::World& w) : world(w) {
-    const auto& machines = world.description().machines;
-    for (std::size_t m = 0; m < machines.size(); ++m) {
-      const scene::Machine& machine = machines[m].machine;
+  explicit State(const sim::World& w) : world(w), bodies(solid_bodies(w.description())) {
+    for (const SolidBody& body : bodies)
+      links.push_back(world.machines().at(body.machine).link(body.link));
+    // The bodies of a machine stand together in the list.
+    std::size_t at = 0;
+    for (std::size_t m = 0; m < world.description().machines.size(); ++m) {
       Group group;
-      group.bodies_from = bodies.size();
-      for (std::size_t l = 0; l < machine.links.size(); ++l) add_body(m, l);
-      group.bodies_to = bodies.size();
+      group.bodies_from = at;
+      while (at < bodies.size() && bodies[at].machine == static_cast<int>(m)) ++at;
+      group.bodies_to = at;
       groups.push_back(group);
     }
-  }
-
-  void add_body(std::size_t m, std::size_t l) {
-    const scene::MachineInWorld& placed = world.description().machines[m];
-    const TriangleMesh look = look_of(placed.machine, placed.machine.links[l]);
-    if (look.triangles.empty()) return;
-    const geometry::Box box = geometry::bounds(look);
-    bodies.push_back({world.machines().at(static_cast<int>(m)).link(static_cast<int>(l)),
-                      static_cast<int>(m), static_cast<int>(l),
-                      geometry::RayTree(look, placed.name), 0.5 * (box.low + box.high),
-                      0.5 * (box.high - box.low)});
   }
 
   void place_bodies() {
@@ -130,13 +87,8 @@ struct RayScene::State {
       group.low.setConstant(1e300);
       group.high.setConstant(-1e300);
       for (std::size_t i = group.bodies_from; i < group.bodies_to; ++i) {
-        Body& body = bodies[i];
-        const Pose X_WL = body.link.pose();
-        body.X_LW = X_WL.inverse();
-        const Vec3 middle = X_WL * body.middle, half = X_WL.linear().cwiseAbs() * body.half;
-        body.low = middle - half;
-        body.high = middle + half;
-        group.include(body.low, body.high);
+        bodies[i].place(links[i].pose());
+        group.include(bodies[i].low, bodies[i].high);
       }
       group.bars_from = bars.size();
       add_bars(static_cast<int>(m), group);
@@ -160,7 +112,8 @@ struct RayScene::State {
   }
 
   const sim::World& world;
-  std::vector<Body> bodies;
+  std::vector<SolidBody> bodies;
+  std::vector<sim::LinkHandle> links;  ///< link of each body, for its pose
   std::vector<Bar> bars;
   std::vector<Group> groups;                 ///< one per machine of the scene
   std::vector<scene::FrameCylinder> shapes;  ///< memory of `add_bars`
@@ -201,11 +154,11 @@ std::optional<BeamHit> RayScene::first_hit(const Vec3& p_W, const Vec3& directio
   for (const Group& group : s.groups) {
     if (!meets_box(group.low, group.high, p_W, inverse, limit)) continue;
     for (std::size_t i = group.bodies_from; i < group.bodies_to; ++i) {
-      const Body& body = s.bodies[i];
+      const SolidBody& body = s.bodies[i];
       if (!meets_box(body.low, body.high, p_W, inverse, limit)) continue;
       const auto hit =
           body.tree.first_hit(body.X_LW * p_W, body.X_LW.linear() * direction_W, limit);
-      if (hit) take(hit->distance, Met::kBody, body.machine, body.index);
+      if (hit) take(hit->distance, Met::kBody, body.machine, body.link);
     }
     for (std::size_t i = group.bars_from; i < group.bars_to; ++i)
       if (const double t = meet(s.bars[i], p_W, direction_W); t >= 0 && t < limit)
@@ -219,7 +172,7 @@ std::optional<BeamHit> RayScene::first_hit(const Vec3& p_W, const Vec3& directio
 }
 
 bool RayScene::on_machine(int machine, const Vec3& p_W, double margin) const {
-  for (const Body& body : state_->bodies) {
+  for (const SolidBody& body : state_->bodies) {
     if (body.machine != machine) continue;
     const Vec3 p = (body.X_LW * p_W - body.middle).cwiseAbs();
     if ((p.array() <= body.half.array() + margin).all()) return true;
@@ -232,29 +185,9 @@ bool RayScene::on_machine(int machine, const Vec3& p_W, double margin) const {
   return false;
 }
 
-std::string RayScene::around(const Vec3& p_W) const {
+Enclosure RayScene::around(const Vec3& p_W) const {
   const State& s = *state_;
-  const heightfield::TerrainView& surface = s.ground.surface();
-  const Vec2i column = surface.column_at(p_W.x(), p_W.y());
-  if (surface.contains(column.x(), column.y()) && p_W.z() <= surface.sample(p_W.x(), p_W.y()))
-    return "the ground";
-  for (const Body& body : s.bodies) {
-    if ((p_W.array() < body.low.array()).any() || (p_W.array() > body.high.array()).any()) continue;
-    const Vec3 p_L = body.X_LW * p_W;
-    // From inside a closed body, every beam first meets the back of a face. Three beams show
-    // whether a mesh is closed.
-    bool inside = true;
-    for (const Vec3& d : {Vec3(0.31, 0.17, 0.93), Vec3(-0.83, 0.41, -0.37), Vec3(0.2, -0.9, 0.4)}) {
-      const auto hit = body.tree.first_hit(p_L, d);
-      inside = inside && hit && hit->normal.dot(d) > 0;
-    }
-    const scene::MachineInWorld& placed =
-        s.world.description().machines[static_cast<std::size_t>(body.machine)];
-    if (inside)
-      return "link '" + placed.machine.links[static_cast<std::size_t>(body.index)].name + "' of '" +
-             placed.name + "'";
-  }
-  return "";
+  return sensor::around(s.world.description(), s.ground.surface(), s.bodies, p_W);
 }
 
 }  // namespace navvy::sensor

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "core/math.h"
+#include "sensor/shape_mesh.h"
 #include "sim/world.h"
 
 namespace navvy::sensor {
@@ -58,9 +58,8 @@ class RayScene {
   /// Returns true if a point is within `margin` [m] of the box around a link of a machine, in the
   /// axes of the link, or of one of its hydraulic cylinders.
   bool on_machine(int machine, const Vec3& p_W, double margin) const;
-  /// Returns what a point is inside of, in words for messages: the ground or a closed body. Empty
-  /// if it is free.
-  std::string around(const Vec3& p_W) const;
+  /// Returns what a point is inside of: the ground or a closed body.
+  Enclosure around(const Vec3& p_W) const;
 
  private:
   struct State;

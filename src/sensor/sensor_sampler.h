@@ -26,8 +26,6 @@ class SensorSampler final : public sim::Sampler {
   explicit SensorSampler(Mounting at);
 
   std::string name() const override { return name_; }
-  /// Returns true if the sensor needs a free view (Instrument::needs_view).
-  bool needs_view() const { return instrument_->needs_view(); }
   // Every step: a sweep lasts several, and a delivery need not be at a reading.
   double rate() const override { return 0; }
   bool hashed() const override { return false; }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/read_mesh.h"
+#include "scene/scaled_mesh.h"
 
 namespace navvy::sensor {
 namespace {
@@ -76,12 +76,6 @@ TriangleMesh rectangle(const Vec3& size) {
   return out;
 }
 
-TriangleMesh scaled_file(const scene::Geometry& shape) {
-  TriangleMesh out = shape.made ? *shape.made : geometry::read_mesh(shape.mesh_file);
-  for (Vec3& v : out.vertices) v = v.cwiseProduct(shape.scale);
-  return out;
-}
-
 }  // namespace
 
 TriangleMesh mesh_of(const scene::Geometry& shape) {
@@ -111,7 +105,7 @@ TriangleMesh mesh_of(const scene::Geometry& shape) {
     case Kind::kMesh:
       break;
   }
-  return scaled_file(shape);
+  return scene::scaled_mesh(shape);
 }
 
 void append(const TriangleMesh& part, const Pose& X_AP, TriangleMesh& whole) {
@@ -119,6 +113,82 @@ void append(const TriangleMesh& part, const Pose& X_AP, TriangleMesh& whole) {
   for (const Vec3& v : part.vertices) whole.vertices.push_back(X_AP * v);
   for (const auto& t : part.triangles)
     whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+namespace {
+
+/// Returns what a link looks like: visuals, else collisions and shells.
+TriangleMesh look_of(const scene::Machine& machine, const scene::Link& link) {
+  TriangleMesh out;
+  for (const scene::Visual& visual : link.visuals)
+    append(mesh_of(visual.geometry), visual.X_LV, out);
+  if (!link.visuals.empty()) return out;
+  for (const scene::Collision& collision : link.collisions)
+    // A plane that collides is the rock under the whole site.
+    if (collision.geometry.kind != scene::Geometry::Kind::kPlane)
+      append(mesh_of(collision.geometry), collision.X_LC, out);
+  for (const scene::Shell& shell : machine.shells)
+    if (shell.link == link.name) {
+      TriangleMesh steel;
+      steel.vertices = shell.vertices;
+      steel.triangles = shell.triangles;
+      append(steel, Pose::Identity(), out);
+    }
+  return out;
+}
+
+}  // namespace
+
+void SolidBody::place(const Pose& X_WL) {
+  X_LW = X_WL.inverse();
+  const Vec3 centre = X_WL * middle, reach = X_WL.linear().cwiseAbs() * half;
+  low = centre - reach;
+  high = centre + reach;
+}
+
+bool SolidBody::contains(const Vec3& p_W) const {
+  if ((p_W.array() < low.array()).any() || (p_W.array() > high.array()).any()) return false;
+  const Vec3 p_L = X_LW * p_W;
+  // From inside a closed body, every beam first meets the back of a face. Three beams show
+  // whether a mesh is closed.
+  bool inside = true;
+  for (const Vec3& d : {Vec3(0.31, 0.17, 0.93), Vec3(-0.83, 0.41, -0.37), Vec3(0.2, -0.9, 0.4)}) {
+    const auto hit = tree.first_hit(p_L, d);
+    inside = inside && hit && hit->normal.dot(d) > 0;
+  }
+  return inside;
+}
+
+std::vector<SolidBody> solid_bodies(const scene::Scene& scene) {
+  std::vector<SolidBody> out;
+  for (std::size_t m = 0; m < scene.machines.size(); ++m) {
+    const scene::Machine& machine = scene.machines[m].machine;
+    for (std::size_t l = 0; l < machine.links.size(); ++l) {
+      const TriangleMesh look = look_of(machine, machine.links[l]);
+      if (look.triangles.empty()) continue;
+      const geometry::Box box = geometry::bounds(look);
+      out.push_back({static_cast<int>(m), static_cast<int>(l),
+                     geometry::RayTree(look, scene.machines[m].name), 0.5 * (box.low + box.high),
+                     0.5 * (box.high - box.low)});
+      out.back().place(Pose::Identity());
+    }
+  }
+  return out;
+}
+
+Enclosure around(const scene::Scene& scene, const heightfield::Terrain& surface,
+                 const std::vector<SolidBody>& bodies, const Vec3& p_W) {
+  const Vec2i column = surface.column_at(p_W.x(), p_W.y());
+  if (surface.contains(column.x(), column.y()) && p_W.z() <= surface.sample(p_W.x(), p_W.y()))
+    return {"the ground", -1};
+  for (const SolidBody& body : bodies) {
+    if (!body.contains(p_W)) continue;
+    const scene::MachineInWorld& placed = scene.machines[static_cast<std::size_t>(body.machine)];
+    return {"link '" + placed.machine.links[static_cast<std::size_t>(body.link)].name + "' of '" +
+                placed.name + "'",
+            body.machine};
+  }
+  return {};
 }
 
 }  // namespace navvy::sensor

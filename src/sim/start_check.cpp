@@ -260,10 +260,6 @@ std::string reported_design(const scene::Scene& scene, const heightfield::Ground
   return "";
 }
 
-}  // namespace
-
-namespace {
-
 /// Returns true for a machine that stands on its links. Stones and other single bodies are no
 /// machines: they may start in the ground to their middle, as wheels may.
 bool has_feet(const scene::Machine& machine) {

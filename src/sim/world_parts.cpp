@@ -11,14 +11,13 @@
 #include "heightfield/make_ground.h"
 #include "sim/snapshot.h"
 #include "sim/start_placing.h"
-#include "sim/timing.h"
+#include "sim/step_length.h"
 
 namespace navvy::sim {
 namespace {
 
 constexpr double kHighestRate = 1e5;  // [1/s] of a controller, as scenes may ask for
 constexpr double kRounding = 1e-8;    // of a step that is the quotient of two times
-constexpr double kToolSpeed = 2.0;    // [m/s] fastest tip for which the base step must be stable
 
 /// Builds the ground and logs the report on a terrain file.
 heightfield::Ground make_site(const scene::Scene& world) {
@@ -56,10 +55,8 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device,
       forces(description) {
   start = start_of(description, ground);
   start_hash = hash_of_start(start);
-  // The base step is limited by waves in the stiffest soil and by the fastest tool.
-  longest_step = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
-  const double rate = description.solver.control_rate;
-  dt = base_step(longest_step, rate > 0 ? 1 / rate : 0);
+  longest_step = sim::longest_step(description);
+  dt = starting_step(description);
   if (!(dt > 0) || !std::isfinite(dt))
     throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver",
                            std::to_string(dt), "the base step must be positive and finite",

@@ -8,6 +8,7 @@
 #include "device/device_error.h"
 #include "soil/particles/schedule.h"
 #include "soil/solver_state.h"
+#include "soil/time_step.h"
 
 namespace navvy::soil {
 namespace {
@@ -22,13 +23,6 @@ constexpr double kMostStep = 1.3;
 device::Device& for_few(device::Device& device) {
   device.run_in_caller(true);
   return device;
-}
-
-/// Returns the largest sound speed of the scene's soils [m/s], which limits the step.
-double fastest_sound_of(const std::vector<scene::Soil>& soils) {
-  double out = 0;
-  for (const scene::Soil& soil : soils) out = std::max(out, sound_speed(soil));
-  return out;
 }
 
 /// Returns the motion after `t` seconds with `motion`'s twist, and with the new `twist` (angular,
@@ -72,7 +66,7 @@ Solver::State::State(device::Device& device_in, const scene::Scene& world_in,
       ground(ground_in),
       scheme(scheme_in),
       frame(world_in, ground_in),
-      fastest_sound(fastest_sound_of(world_in.soils)),
+      fastest_sound(soil::fastest_sound(world_in.soils)),
       particles(device,
                 {-frame.grid.x, -frame.grid.y, ground_in.nx() - frame.grid.x,
                  ground_in.ny() - frame.grid.y},
@@ -116,11 +110,8 @@ const EnergyAccount* Solver::energy() const {
 }
 
 double Solver::step_limit(double tool_speed) const {
-  // Courant's condition; the speed of the fastest tool adds to that of sound
-  // [docs/soil.md, time step].
-  const scene::SolverSettings& settings = state_->world.solver;
-  return std::min(settings.max_step,
-                  settings.courant * state_->frame.cell / (state_->fastest_sound + tool_speed));
+  return soil::step_limit(state_->world.solver, state_->frame.cell, state_->fastest_sound,
+                          tool_speed);
 }
 
 // A rigid tool is fastest at one of its vertices.

@@ -182,6 +182,16 @@ TEST_F(Messages, CheckFindsShippedScenesByName) {
   expect_said("within its support polygon");
 }
 
+TEST_F(Messages, CheckWarnsOfNothingInThePapersScenes) {
+  std::vector<std::string> command = {"check"};
+  for (const auto& entry :
+       std::filesystem::directory_iterator(navvy::source_dir() + "/scenarios/paper"))
+    if (entry.path().extension() == ".sdf") command.push_back(entry.path().string());
+  ASSERT_GT(command.size(), 10u);
+  EXPECT_EQ(run(command), 0) << said();
+  expect_said(std::to_string(command.size() - 1) + " files checked: 0 errors, 0 warnings");
+}
+
 TEST_F(Messages, CheckDoesNotReportAFallingMachineAsStanding) {
   EXPECT_EQ(
       run({"check",
@@ -191,6 +201,38 @@ TEST_F(Messages, CheckDoesNotReportAFallingMachineAsStanding) {
       0)
       << said();
   expect_said("'digger' does not stand after a second: it is still falling");
+}
+
+TEST_F(Messages, CheckOfAMachineAloneReportsHowItStands) {
+  const std::string vehicles = navvy::source_dir() + "/vehicles/";
+  EXPECT_EQ(run({"check", vehicles + "ew180/model.sdf"}), 0) << said();
+  expect_said("' stands: tilt 0.");
+  expect_said("1 file checked: 0 errors, 0 warnings");
+  EXPECT_EQ(run({"check", vehicles + "ew180/model.sdf", "--soil", "loam", "--size", "30,30"}), 0)
+      << said();
+  expect_said("' stands: tilt ");
+  // Its drawbar has no wheel below it; in a scene a hitch holds it.
+  EXPECT_EQ(run({"check", vehicles + "robot_trailer/model.sdf"}), 0) << said();
+  expect_said("0 errors");
+  EXPECT_EQ(run({"check", vehicles + "ew180/model.sdf", "--soil", "lom"}), 2) << said();
+  expect_said("loam");
+}
+
+TEST_F(Messages, CheckOfAForeignRobotReportsHowItStands) {
+  const std::string file = (directory_ / "walker.urdf").string();
+  const auto link = [](const std::string& name, const std::string& size) {
+    return "<link name=\"" + name +
+           "\"><inertial><mass value=\"5\"/><inertia ixx=\"0.1\" ixy=\"0\" ixz=\"0\" iyy=\"0.1\" "
+           "iyz=\"0\" izz=\"0.1\"/></inertial><collision><geometry><box size=\"" +
+           size + "\"/></geometry></collision></link>";
+  };
+  std::ofstream(file) << "<robot name=\"walker\">" << link("body", "0.6 0.4 0.3")
+                      << link("head", "0.2 0.2 0.2")
+                      << "<joint name=\"neck\" type=\"revolute\"><parent link=\"body\"/><child "
+                         "link=\"head\"/><origin xyz=\"0 0 0.3\"/><axis xyz=\"0 1 0\"/><limit "
+                         "lower=\"-1\" upper=\"1\" effort=\"50\" velocity=\"1\"/></joint></robot>";
+  EXPECT_EQ(run({"check", file}), 0) << said();
+  expect_said("'walker' stands without wheels: after a second its base is 0.0");
 }
 
 TEST_F(Messages, CheckRefusesMachinesThatOverlap) {
@@ -216,6 +258,41 @@ TEST_F(Messages, RunRefusesMachinesThatOverlapAsCheckDoes) {
   EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.1", "--out", out()}), 2);
   expect_complained(message);
   EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
+}
+
+TEST_F(Messages, RunRefusesSensorsAsCheckDoes) {
+  const auto body = [](const std::string& name, const std::string& pose, const std::string& size,
+                       const std::string& sensor) {
+    return "<model name=\"" + name + "\"><static>true</static><pose>" + pose +
+           "</pose><navvy:on_ground>false</navvy:on_ground><link name=\"base\"><visual name=\"v\">"
+           "<geometry><box><size>" +
+           size + "</size></box></geometry></visual>" + sensor + "</link></model>\n";
+  };
+  const auto with = [&](const std::string& rate, const std::string& place_of_block) {
+    return scene("", body("mast", "0 0 0.1 0 0 0", "0.2 0.2 0.2",
+                          "<sensor name=\"eye\" type=\"lidar\"><pose>0 0 0.9 0 0 0</pose>"
+                          "<update_rate>" +
+                              rate +
+                              "</update_rate><lidar><scan><horizontal><samples>3</samples>"
+                              "</horizontal></scan></lidar></sensor>") +
+                         body("block", place_of_block, "1 1 1", ""));
+  };
+  EXPECT_EQ(run({"check", with("20", "4 0 1 0 0 0")}), 0) << said();
+  const std::string file = with("50000", "0 0 1 0 0 0");
+  EXPECT_EQ(run({"check", file}), 2) << said();
+  std::vector<std::string> faults;
+  std::istringstream lines(said());
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(": error: ") != std::string::npos) faults.push_back(line);
+  ASSERT_EQ(faults.size(), 2u) << said();
+  EXPECT_NE(faults[0].find("scene.sdf:3: error: sensor[eye]: '50000': a sensor reads at most once"),
+            std::string::npos)
+      << faults[0];
+  EXPECT_NE(faults[1].find("the sensor is inside link 'base' of 'block' at the start"),
+            std::string::npos)
+      << faults[1];
+  EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.1", "--out", out()}), 2);
+  for (const std::string& fault : faults) expect_complained(fault);
 }
 
 TEST_F(Messages, ARunWithoutADeviceLeavesNoFolderBehind) {

@@ -192,6 +192,53 @@ TEST_F(ScanTest, SeesSoilThatFalls) {
   EXPECT_LT(distance, 4);
 }
 
+TEST_F(ScanTest, BeamsThroughFallingSoilReturnEarly) {
+  // 361 level beams across the way down from the tail, which is at x = -1.1: they meet nothing
+  // else.
+  const auto world =
+      world_of(scene_of(dumper(65) + body("mast", "-2.1 -3 0.1 0 0 1.5707963267948966",
+                                          "<box><size>0.2 0.2 0.2</size></box>",
+                                          laser("0 0 0.25 0 0 0", 361, 0.1))),
+               device_);
+  for (const float r : ranges(*world)) ASSERT_TRUE(std::isinf(r));
+  int early = 0, scans = 0;
+  std::uint64_t seen = world->arrays().view("mast/laser/ranges").sequence();
+  while (world->time() < 2 && scans < 5) {
+    world->step();
+    const sim::ArrayView view = world->arrays().view("mast/laser/ranges");
+    if (view.sequence() == seen) continue;
+    seen = view.sequence();
+    sim::VisibleSoil soil(*world);
+    soil.update();
+    const Vec3 p = view.X_WF().translation();
+    int hits = 0;
+    for (int i = 0; i < 361; ++i) {
+      const double a = angle_of(i, 361, 0.1);
+      const Vec3 d = view.X_WF().linear() * Vec3(std::cos(a), std::sin(a), 0);
+      // The truth: the first ball that the beam enters, of all, or the heap below.
+      const double ground = soil.surface().ray(p, d, 15);
+      double first = ground < 0 ? 15 : ground;
+      for (const sim::SoilBall& ball : soil.balls()) {
+        const Vec3 c = soil.origin() + ball.p_O.cast<double>() - p;
+        const double along = c.dot(d), r = static_cast<double>(ball.radius),
+                     root = r * r - (c - along * d).squaredNorm();
+        if (root > 0 && along > 0) first = std::min(first, along - std::sqrt(root));
+      }
+      const double read = ranges(*world)[static_cast<std::size_t>(i)];
+      if (first == 15) {
+        EXPECT_TRUE(std::isinf(read)) << i;
+        continue;
+      }
+      EXPECT_NEAR(read, first, kTruth) << i;
+      ++hits;
+    }
+    early += hits;
+    scans += hits > 0 ? 1 : 0;
+  }
+  EXPECT_EQ(scans, 5);
+  EXPECT_GT(early, 100);
+}
+
 TEST_F(ScanTest, MeasuresDepthsAndLabelsOfTheGround) {
   const std::string camera =
       "<pose>0 0 3 0 1.5707963 0</pose><update_rate>10</update_rate><camera><horizontal_fov>1"
@@ -242,14 +289,32 @@ TEST_F(ScanTest, FoldsDistancesOfATimeOfFlightCameraAndMixesAtEdges) {
   EXPECT_TRUE(flying);
 }
 
+/// Returns the faults as texts.
+std::vector<std::string> texts(const std::vector<Fault>& faults) {
+  std::vector<std::string> out;
+  for (const Fault& fault : faults) out.push_back(fault.text());
+  return out;
+}
+
+/// Returns the message with which a world refuses the sensors of a scene; empty if it does not. The
+/// check without a world must have the same faults.
+std::string refusal(const scene::Scene& scene, device::Device& device) {
+  const std::vector<std::string> checked = texts(check_sensors(scene));
+  try {
+    world_of(scene, device);
+  } catch (const InputError& error) {
+    EXPECT_EQ(checked, texts(error.faults()));
+    return error.what();
+  }
+  // A world is not refused for warnings.
+  for (const std::string& text : checked)
+    EXPECT_EQ(text.find(": error: "), std::string::npos) << text;
+  return "";
+}
+
 TEST_F(ScanTest, RefusesASensorInABodyAndARateAboveTheSteps) {
-  const auto refused = [&](const std::string& sensors, const std::string& others) -> std::string {
-    try {
-      world_of(scene_of(mast(sensors) + others), device_);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto refused = [&](const std::string& sensors, const std::string& others) {
+    return refusal(scene_of(mast(sensors) + others), device_);
   };
   const std::string inside = refused(laser("0 0 0.9 0 0 0", 3, 0.1),
                                      body("block", "0 0 1 0 0 0", "<box><size>1 1 1</size></box>"));
@@ -262,6 +327,47 @@ TEST_F(ScanTest, RefusesASensorInABodyAndARateAboveTheSteps) {
             std::string::npos);
   EXPECT_NE(refused(laser("0 0 0.9 0 0 0", 3, 0.1, "<navvy:sweep_s>0.1</navvy:sweep_s>"), "")
                 .find("a sweep must end"),
+            std::string::npos);
+  EXPECT_EQ(refused(laser("0 0 0.9 0 0 0", 3, 0.1), ""), "");
+}
+
+TEST_F(ScanTest, WarnsOfASensorInItsOwnMachine) {
+  // A file of another simulator: with an element of `navvy:`, the reader would refuse it.
+  const scene::Scene scene = scene_io::load_scene_from_string(
+      R"(<sdf version="1.9"><world name="w"><model name="m"><static>true</static>
+<pose>0 0 1 0 0 0</pose><link name="l"><visual name="v"><geometry><box><size>0.4 0.4 0.4</size></box>
+</geometry></visual><sensor name="eye" type="lidar"><update_rate>10</update_rate><lidar><scan>
+<horizontal><samples>3</samples></horizontal></scan></lidar></sensor></link></model></world></sdf>)",
+      "test.sdf", control::step_kinds());
+  EXPECT_EQ(refusal(scene, device_), "");
+  const std::vector<std::string> checked = texts(check_sensors(scene));
+  ASSERT_EQ(checked.size(), 1u);
+  EXPECT_NE(
+      checked[0].find("warning: sensor[eye]: '0 0 1 m': the sensor is inside link 'l' of 'm'"),
+      std::string::npos)
+      << checked[0];
+}
+
+TEST_F(ScanTest, ChecksSensorsWhereTheirMachineStandsAtTheStart) {
+  // The dumper stands on a slope, with its bed tipped: the sensor moves with both.
+  const auto with = [&](const std::string& pose, const std::string& rate) {
+    return "<include><uri>model://dumper</uri><name>dumper</name><pose>2 1 0 0 0 0.7</pose>"
+           "<navvy:joint name=\"tip_joint\"><initial_deg>50</initial_deg></navvy:joint>"
+           "<navvy:sensor name=\"eye\" link=\"bed\" type=\"lidar\"><pose>" +
+           pose + "</pose><update_rate>" + rate +
+           "</update_rate><lidar><scan><horizontal><samples>3</samples></horizontal></scan></lidar>"
+           "</navvy:sensor></include>";
+  };
+  const auto refused = [&](const std::string& pose, const std::string& rate) {
+    return refusal(
+        scene_of(with(pose, rate), "<slope><angle_deg>8</angle_deg><yaw_deg>30</yaw_deg></slope>"),
+        device_);
+  };
+  EXPECT_EQ(refused("0 0 3 0 0 0", "20"), "");
+  EXPECT_NE(refused("0 0 -3 0 0 0", "20").find("the sensor is inside the ground at the start"),
+            std::string::npos);
+  // The longest step that the soil allows also limits a rate, without a device.
+  EXPECT_NE(refused("0 0 3 0 0 0", "1200").find("a sensor reads at most once in a step of"),
             std::string::npos);
 }
 

@@ -21,7 +21,6 @@ class ColourInstrument final : public Instrument {
         names_(std::move(names)),
         places_(std::move(places)) {}
 
-  bool needs_view() const override { return true; }
   std::vector<MeasuredQuantity> quantities() const override {
     std::vector<MeasuredQuantity> out;
     for (const char* name : names_)
