@@ -66,6 +66,34 @@ TEST_F(Map, OfASceneShowsItsUntouchedSite) {
   EXPECT_NE(said().find("48 x 32 columns of 0.1 m"), std::string::npos) << said();
 }
 
+TEST_F(Map, OfASceneHasItsBodiesAsOccupiedCellsOfNav2) {
+  // A wall of 0.4 m x 1.6 m on 8 m x 4 m: the columns 48 to 51 of the rows 12 to 27.
+  const std::string walled = path("walled.sdf");
+  std::ofstream(walled) << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="walled">
+<navvy:soil ref="loam"/><navvy:ground><size_m>8 4</size_m></navvy:ground>
+<model name="wall"><static>true</static><pose>1 0 0.5 0 0 0</pose><link name="base">
+<collision name="c"><geometry><box><size>0.4 1.6 2</size></box></geometry></collision></link></model>
+</world></sdf>
+)";
+  ASSERT_EQ(run({"map", walled, "--format", "nav2", "--out", path("map.yaml")}), 0) << complained();
+  const std::string pgm = test_text(path("map.pgm")), head = "P5\n80 40\n255\n";
+  ASSERT_EQ(pgm.size(), head.size() + 80 * 40);
+  int wall = 0, near = 0;
+  for (int y = 0; y < 40; ++y)
+    for (int ix = 0; ix < 80; ++ix) {
+      const auto pixel =
+          static_cast<unsigned char>(pgm[head.size() + static_cast<std::size_t>(80 * y + ix)]);
+      const int iy = 39 - y;
+      // A column whose edge the wall just touches may count as occupied.
+      const bool inside = ix >= 48 && ix <= 51 && iy >= 12 && iy <= 27;
+      const bool at_edge = ix >= 47 && ix <= 52 && iy >= 11 && iy <= 28;
+      wall += inside && pixel == 0 ? 1 : 0;
+      near += !at_edge && pixel == 254 ? 1 : 0;
+    }
+  EXPECT_EQ(wall, 4 * 16);
+  EXPECT_EQ(near, 80 * 40 - 6 * 18);
+}
+
 TEST_F(Map, OfARunShowsItsFinalGroundAndOfASnapshotAlsoActiveSoil) {
   ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot",
                  path("half.snapshot"), "--snapshot-at", "0.1", "--out", out()}),

@@ -77,6 +77,31 @@ TEST(OwnMap, ShowsWhatIsVisibleWithinTheNoiseAndNothingElse) {
     if (!std::isnan(seen[i])) ASSERT_EQ(predicted[i], seen[i]);
 }
 
+TEST(OwnMap, LeavesOutTheMachineItselfUnlessAskedNotTo) {
+  device::Device device;
+  // A plate of the mast's own, and one of another body: both 0.6 m high, side by side.
+  const auto height_at = [&](const std::string& of_map, double y) {
+    std::string sensors = scanner_and_map();
+    sensors.insert(sensors.find("<cell_m>"), of_map);
+    const auto world = world_of(
+        scene_of(
+            mast("<visual name=\"arm\"><pose>2 0.75 0.2 0 0 0</pose><geometry><box><size>0.5 0.5 "
+                 "0.6</size></box></geometry></visual>" +
+                 sensors) +
+            testing::body("other", "2 -0.75 0.3 0 0 0", "<box><size>0.5 0.5 0.6</size></box>")),
+        device);
+    while (world->time() < 0.2) world->step();
+    const auto seen = world->arrays().view("mast/map/elevation").values<float>();
+    // The cell in the middle of a plate, 2 m ahead.
+    return static_cast<double>(
+        seen[static_cast<std::size_t>(14 + 65 * static_cast<int>(std::floor((y + 2) / 0.1)))]);
+  };
+  EXPECT_TRUE(std::isnan(height_at("", 0.75))) << "the machine is filtered by default";
+  EXPECT_NEAR(height_at("<self_filter>false</self_filter>", 0.75), 0.6, 3 * kSigma);
+  for (const char* filter : {"", "<self_filter>false</self_filter>"})
+    EXPECT_NEAR(height_at(filter, -0.75), 0.6, 3 * kSigma) << "others are seen";
+}
+
 /// Returns the digging bucket with a scanner behind and above it, and a map of what it sees.
 std::string bucket_with_map() {
   return digging_bucket(R"(<navvy:sensor name="scanner" link="base" type="lidar">

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "core/saved_state.h"
 #include "sensor/scenes.h"
@@ -139,6 +140,23 @@ TEST_F(SensorTest, ListsItsArraysWithKindAndFrames) {
   const auto view = world->arrays().view(all[0].arrays[0].index);
   EXPECT_EQ(view.channel().name, "robot/laser/ranges");
   EXPECT_EQ(view.channel().rate, 50);
+}
+
+TEST_F(SensorTest, InfraredMeasuresTheMeanDistanceOverItsSpot) {
+  const std::string sensor =
+      "<sensor name=\"infrared\" type=\"navvy:infrared\"><pose>0 0 0.9 0 0 0</pose><update_rate>20"
+      "</update_rate><navvy:infrared><range><min>0.1</min><max>3</max></range><spot_deg>2</"
+      "spot_deg>"
+      "</navvy:infrared></sensor>";
+  const auto read = [&](double x) {
+    const auto world =
+        world_of(scene_of(mast(sensor) + body("wall", std::to_string(x) + " 0 1 0 0 0",
+                                              "<box><size>1 4 2</size></box>")),
+                 device_);
+    return world->arrays().view("mast/infrared/range").values<float>()[0];
+  };
+  EXPECT_NEAR(read(2), 1.5, 0.002);
+  EXPECT_EQ(read(5), std::numeric_limits<float>::infinity()) << "beyond its range";
 }
 
 TEST_F(SensorTest, UltrasoundReturnsTheFirstEchoInItsCone) {
