@@ -21,6 +21,8 @@ BROKEN_SCENES = "build/fuzz/broken_scenes"
 # Time that one pass over the kept inputs may take [s]; others may keep the machine busy, so only
 # five times that fails.
 REPLAY_AIM = 60
+# Inputs that a target aims at over all runs; other targets at a million.
+AIMS = {"loader": 100000, "snapshot": 100000, "mesh": 100000, "urdf": 100000}
 # Folders that a target starts from besides its own inputs.
 SEEDS = {"world": [BROKEN_SCENES], "loader": [BROKEN_SCENES, "scenarios"]}
 
@@ -47,10 +49,41 @@ def added_total(text, name, inputs, sanitized, seconds, crashes, today):
                 row[column] = str(int(row[column]) + more)
             row[6] = today
     if not found:
-        rows.append(
-            [name, "1000000", str(inputs), str(sanitized), str(seconds), str(crashes), today]
-        )
+        aim = str(AIMS.get(name, 1000000))
+        rows.append([name, aim, str(inputs), str(sanitized), str(seconds), str(crashes), today])
     return "".join(",".join(row) + "\n" for row in rows)
+
+
+class Limit:
+    """End of a walk: a number of seconds, or one of inputs."""
+
+    def __init__(self, seconds, inputs=None):
+        self.seconds = seconds
+        self.inputs = inputs
+
+    def option(self):
+        """Returns the option of libFuzzer."""
+        if self.inputs is not None:
+            return "-runs=%d" % self.inputs
+        return "-max_total_time=%d" % self.seconds
+
+    def text(self):
+        """Returns the limit in words."""
+        return "%d s" % self.seconds if self.inputs is None else "%d inputs" % self.inputs
+
+
+def taken_limit(words):
+    """Removes the limit of a walk from the words of the command line and returns it. Raises
+    DevError for --inputs without a number.
+    """
+    if "--inputs" in words:
+        at = words.index("--inputs")
+        if len(words) < at + 2 or not words[at + 1].isdigit() or int(words[at + 1]) == 0:
+            raise DevError("--inputs needs a number of inputs, such as 100000")
+        inputs = int(words[at + 1])
+        del words[at : at + 2]
+        return Limit(None, inputs)
+    return Limit(int(words.pop()) if words and words[-1].isdigit() else 60)
 
 
 class Fuzzers:
@@ -160,30 +193,30 @@ class Fuzzers:
             shutil.copy(file, ROOT / folder)
         self.pack(name)
 
-    def walk(self, seconds):
-        """Fuzzes each target for so many seconds, JOBS at a time, from what was found before.
-        Raises DevError on a crash.
+    def walk(self, limit):
+        """Fuzzes each target to a Limit, JOBS at a time, from what was found before. Raises
+        DevError on a crash.
         """
         self.inputs("scenes", "tests/scene_io/broken_scenes.txt", BROKEN_SCENES)
         with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
-            good = list(pool.map(lambda name: self.walk_target(name, seconds), self.names))
+            good = list(pool.map(lambda name: self.walk_target(name, limit), self.names))
         failed = [name for name, passed in zip(self.names, good) if not passed]
         if failed:
             raise DevError(
                 "fuzz targets failed: %s (inputs in build/fuzz/crashes)" % " ".join(failed)
             )
 
-    def walk_target(self, name, seconds):
+    def walk_target(self, name, limit):
         """Fuzzes one target; returns whether nothing was found."""
         (ROOT / FOUND / name).mkdir(parents=True, exist_ok=True)
         seeds = [self.unpack(name)] + SEEDS.get(name, [])
-        say("fuzzing %s for %d s" % (name, seconds))
+        say("fuzzing %s for %s" % (name, limit.text()))
         # CI repeats one walk, so that a change is judged by what it changes; by hand every call
         # walks elsewhere.
         seed = ["-seed=1"] if CI else []
-        good = self.fuzz(
-            name, "-max_total_time=%d" % seconds, *seed, "%s/%s" % (FOUND, name), *seeds
-        )
+        begun = time.monotonic()
+        good = self.fuzz(name, limit.option(), *seed, "%s/%s" % (FOUND, name), *seeds)
+        seconds = round(time.monotonic() - begun)
         log = (ROOT / "build/fuzz" / (name + ".log")).read_text(encoding="utf-8", errors="replace")
         found = re.search(r"^stat::number_of_executed_units: *(\d+)", log, re.MULTILINE)
         inputs = int(found[1]) if found else 0
@@ -232,25 +265,25 @@ MODES = ("fast", "replay", "shrink", "keep")
 def fuzz_command(arguments):
     """Runs every fuzz target or one, for 60 s each by default; adds to tests/fuzz/totals.csv.
 
-    fuzz [TARGET] [SECONDS]       goes on from what was found before, in build/fuzz/corpus fuzz fast
-    [TARGET] [SECONDS]  without sanitizers, several times as many inputs; then what it found under
-    them fuzz replay [TARGET]          one pass over the kept inputs, tests/fuzz/corpus/*.pack fuzz
-    shrink [TARGET]          keeps the fewest of the found inputs that reach all of the code reached
-    so far fuzz keep TARGET FILE...      adds inputs to a target's pack, such as one that crashed
-    before a correction
+    Without a mode it goes on from what was found before, in build/fuzz/corpus. `fast` does so
+    without sanitizers, several times as fast, and then gives what it found to those with them.
+    Both end after SECONDS, or after N inputs. `replay` makes one pass over the kept inputs,
+    tests/fuzz/corpus/*.pack. `shrink` keeps the fewest of the found inputs that reach all of the
+    code reached so far. `keep TARGET FILE...` adds inputs to a target's pack, such as one that
+    crashed before a correction.
     """
     words = list(arguments)
     if words[:1] in (["--help"], ["-h"]):
         workspace.parser(
             fuzz_command,
-            "fuzz [fast | replay | shrink | keep] [TARGET] [SECONDS | FILE...]",
+            "fuzz [fast | replay | shrink | keep] [TARGET] [SECONDS | --inputs N | FILE...]",
             add_help=False,
         ).print_help()
         return
     mode = words.pop(0) if words and words[0] in MODES else "walk"
     if mode == "keep" and len(words) < 2:
         raise DevError("usage: ./dev fuzz keep TARGET FILE...")
-    seconds = int(words.pop()) if mode in ("walk", "fast") and words and words[-1].isdigit() else 60
+    limit = taken_limit(words) if mode in ("walk", "fast") else None
     target, files = (words + [""])[0], words[1:]
     if files and mode != "keep":
         raise DevError(
@@ -259,7 +292,7 @@ def fuzz_command(arguments):
     names = chosen_targets(target)
     packages.install(packages.BASE, packages.CLANG)
     if mode == "fast":
-        Fuzzers(FAST, names).walk(seconds)
+        Fuzzers(FAST, names).walk(limit)
     fuzzers = Fuzzers(SANITIZED, names)
     if mode == "fast":
         fuzzers.check_found()
@@ -270,4 +303,4 @@ def fuzz_command(arguments):
     elif mode == "keep":
         fuzzers.keep(names[0], files)
     else:
-        fuzzers.walk(seconds)
+        fuzzers.walk(limit)

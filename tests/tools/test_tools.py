@@ -129,6 +129,18 @@ class Fuzz(unittest.TestCase):
         self.assertEqual(text.splitlines()[1], "obj,10,12,8,62,1,2026-02-02")
         text = fuzz.added_total(text, "new", 7, 0, 60, 0, "2026-02-02")
         self.assertEqual(text.splitlines()[2], "new,1000000,7,0,60,0,2026-02-02")
+        text = fuzz.added_total(text, "urdf", 7, 0, 60, 0, "2026-02-02")
+        self.assertEqual(text.splitlines()[-1], "urdf,100000,7,0,60,0,2026-02-02")
+
+    def test_a_walk_ends_after_seconds_or_inputs(self):
+        words = ["urdf", "--inputs", "5"]
+        self.assertEqual(fuzz.taken_limit(words).option(), "-runs=5")
+        self.assertEqual(words, ["urdf"])
+        self.assertEqual(fuzz.taken_limit(words).option(), "-max_total_time=60")
+        self.assertEqual(fuzz.taken_limit(["7"]).option(), "-max_total_time=7")
+        for wrong in (["--inputs"], ["--inputs", "many"], ["--inputs", "0"]):
+            with self.assertRaisesRegex(workspace.DevError, "--inputs needs a number"):
+                fuzz.taken_limit(wrong)
 
     def test_targets_are_found_with_and_without_their_ending(self):
         self.assertEqual(fuzz.chosen_targets("obj"), ["obj"])
