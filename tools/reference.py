@@ -21,7 +21,10 @@ FOLDER = os.path.join("docs", "reference")
 COMMANDS = [
     "run",
     "check",
+    "score",
+    "compare",
     "import",
+    "show",
     "map",
     "devices",
     "scenes",

@@ -87,18 +87,18 @@ void measure(render::Renderer& renderer, scene::Frame& frame, const Row& row,
 
 int main(int argc, char** argv) {
   const std::string folder = argc > 1 ? argv[1] : "";
-  render::RenderOptions options;
-  options.samples = argc > 2 ? std::atoi(argv[2]) : 1;
+  const int samples = argc > 2 ? std::atoi(argv[2]) : 1;
   const std::string meshes = navvy::source_dir() + "/vehicles/ew180/meshes";
-  const std::vector<Row> rows = {{"side", render::look_from({6.5, -12.0, 4.6}, {1.6, 0.6, 1.55})},
-                                 {"front", render::look_from({11.5, -7.0, 4.6}, {2.2, 0.9, 1.3})},
-                                 {"close", render::look_from({7.6, -3.6, 2.6}, {4.4, 0.2, 0.5})},
-                                 {"rear", render::look_from({-10.5, 8.0, 5.4}, {0.8, 0.3, 1.5})},
-                                 {"high", render::look_from({30, -38, 22}, {0, 0, 0})}};
+  std::vector<Row> rows = {{"side", render::look_from({6.5, -12.0, 4.6}, {1.6, 0.6, 1.55})},
+                           {"front", render::look_from({11.5, -7.0, 4.6}, {2.2, 0.9, 1.3})},
+                           {"close", render::look_from({7.6, -3.6, 2.6}, {4.4, 0.2, 0.5})},
+                           {"rear", render::look_from({-10.5, 8.0, 5.4}, {0.8, 0.3, 1.5})},
+                           {"high", render::look_from({30, -38, 22}, {0, 0, 0})}};
+  for (Row& row : rows) row.camera.samples = samples;
   for (const int nx : {200, 1024}) {
     render::TrenchScene scene;
     render::make_trench_scene(scene, meshes, nx);
-    render::Renderer renderer(options);
+    render::Renderer renderer;
     for (const Row& row : rows)
       measure(renderer, scene.frame, row, folder, nx == 200 ? "trench" : "site");
   }
@@ -107,8 +107,9 @@ int main(int argc, char** argv) {
   render::make_ground(heap.frame.ground, 200, 200, 0.1);
   render::add_soil(heap.frame.particles, {-1.4, -0.9, 0.0}, {1.4, 0.9, 0.5}, 0.1);
   std::printf("heap: %zu particles\n", heap.frame.particles.position.size() / 3);
-  render::Renderer renderer(options);
-  measure(renderer, heap.frame, {"heap", render::look_from({2.6, -2.6, 1.8}, {0, 0, 0.2})}, folder,
-          "particles");
+  render::Renderer renderer;
+  Row row{"heap", render::look_from({2.6, -2.6, 1.8}, {0, 0, 0.2})};
+  row.camera.samples = samples;
+  measure(renderer, heap.frame, row, folder, "particles");
   return 0;
 }

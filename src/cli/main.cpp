@@ -149,6 +149,7 @@ int run(int argc, char** argv) {
   cli::Action action;
   // The command line is recorded in the folder of a run.
   cli::add_run(app, action, {argv, argv + argc});
+  cli::add_show(app, action);
   cli::add_check(app, action);
   cli::add_score(app, action);
   cli::add_compare(app, action);

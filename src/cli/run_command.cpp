@@ -237,6 +237,7 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   options->simulation.command = std::move(command_line);
   CLI::App* command = app.add_subcommand("run", "run a scene; results go to out/<scenario>/");
   options->scene.add_to(*command);
+  options->scene.add_overlays_to(*command);
   // The options below concern the run, not the scene.
   command->add_option("--out", options->simulation.folder, "directory of the results")
       ->check([](const std::string& text) {

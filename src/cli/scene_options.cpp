@@ -2,11 +2,13 @@
 #include "cli/scene_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "cli/validators.h"
 #include "control/step_kinds.h"
 #include "core/error.h"
+#include "scene/overlay.h"
 #include "scene_io/shipped.h"
 
 namespace navvy::cli {
@@ -28,6 +30,14 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, option, text,
                          "two numbers in metres, separated by a comma",
                          "for example " + option + " 120,80"});
+}
+
+/// Returns the names of all overlays for --help.
+std::string overlay_names() {
+  std::string out;
+  for (const scene::OverlayInfo& one : scene::overlays())
+    out += (out.empty() ? "" : ",") + std::string(one.name);
+  return out;
 }
 
 }  // namespace
@@ -54,12 +64,24 @@ void SceneOptions::add_values_to(CLI::App& command) {
       "simulator, which has none, or instead of the scene's one soil");
 }
 
-void SceneOptions::add_to(CLI::App& command) {
-  // Options of a run beside values.
+void SceneOptions::add_scene_to(CLI::App& command) {
   command.add_option("scene", file, "scene file (SDF), or the name of a shipped scene")->required();
   command.add_option("--device", device,
                      "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`); "
                      "without it NAVVY_DEVICE decides");
+}
+
+void SceneOptions::add_overlays_to(CLI::App& command) {
+  command
+      .add_option("--show", show,
+                  "overlays in pictures instead of the scene's, separated by commas: " +
+                      overlay_names() + "; one of the last four colors soil")
+      ->allow_extra_args(false);
+}
+
+void SceneOptions::add_to(CLI::App& command) {
+  // Options of a run beside values.
+  add_scene_to(command);
   add_values_to(command);
   command.add_option("--duration", duration, "maximum simulated time [s]")->check(above_zero);
   command.add_flag("--no-render", no_render, "draw no pictures");
@@ -81,6 +103,10 @@ scene_io::Overrides SceneOptions::overrides() const {
     out.at = parse_pair("--at", out.at_is_local ? at.substr(local.size()) : at);
   }
   if (!soil.empty()) out.soil = soil;
+  if (show) {
+    out.show = *show;
+    std::replace(out.show->begin(), out.show->end(), ',', ' ');
+  }
   if (!size.empty()) out.size = parse_pair("--size", size);
   return out;
 }

@@ -31,6 +31,8 @@ struct SceneOptions {
   std::string terrain, at, size;
   /// Name or file of the site's soil; empty: that of the scene.
   std::string soil;
+  /// Names of overlays, separated by commas; no value: those of the scene.
+  std::optional<std::string> show;
   /// Seed that replaces the scene's seed, if given.
   std::optional<std::uint64_t> seed;
   /// Maximum simulated time [s]; 0 for the duration in the scene.
@@ -41,8 +43,13 @@ struct SceneOptions {
   /// Adds the options that change values of the scene to `command`: --set, --seed, --terrain, --at,
   /// --size and --soil. This struct must stay alive until the command has run.
   void add_values_to(CLI::App& command);
-  /// Adds all options and the scene argument to `command`. This struct must stay alive until the
+  /// Adds the scene argument and --device to `command`. This struct must stay alive until the
   /// command has run.
+  void add_scene_to(CLI::App& command);
+  /// Adds --show to `command`. This struct must stay alive until the command has run.
+  void add_overlays_to(CLI::App& command);
+  /// Adds all options but --show, and the scene argument, to `command`. This struct must stay alive
+  /// until the command has run.
   void add_to(CLI::App& command);
   /// Returns the changes to the scene, for the loader. @throws InputError for a malformed value.
   scene_io::Overrides overrides() const;

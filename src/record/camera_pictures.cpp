@@ -5,6 +5,7 @@
 
 #include "core/edit_distance.h"
 #include "core/error.h"
+#include "record/overlay_builder.h"
 #include "render/renderer.h"
 #include "sim/frame_builder.h"
 
@@ -12,18 +13,21 @@ namespace navvy::record {
 
 // The frame builder keeps the dense ground between pictures, the renderer its drawing context.
 struct CameraPictures::Context {
-  explicit Context(const sim::World& world) : frames(world) {}
+  explicit Context(const session::Session& session)
+      : frames(session.world(), session.world().description().show), overlays(session) {}
   sim::FrameBuilder frames;
+  OverlayBuilder overlays;
   render::Renderer renderer;
 };
 
-CameraPictures::CameraPictures(const sim::World& world) : world_(world) {}
+CameraPictures::CameraPictures(const session::Session& session) : session_(session) {}
 CameraPictures::~CameraPictures() = default;
 
 void CameraPictures::draw(const std::vector<const scene::Camera*>& cameras,
                           const Receiver& receiver) {
   if (cameras.empty()) return;
-  if (!context_) context_ = std::make_unique<Context>(world_);
+  if (!context_) context_ = std::make_unique<Context>(session_);
+  context_->overlays.build(context_->frames.overlay());
   const scene::Frame& frame = context_->frames.build();
   for (const scene::Camera* camera : cameras)
     receiver(*camera, context_->renderer.render(frame, context_->frames.camera(*camera)));
@@ -32,7 +36,7 @@ void CameraPictures::draw(const std::vector<const scene::Camera*>& cameras,
 render::Image CameraPictures::draw(const std::string& camera) {
   render::Image out;
   std::vector<std::string> names;
-  for (const scene::Camera& one : world_.description().cameras) {
+  for (const scene::Camera& one : session_.world().description().cameras) {
     names.push_back(one.name);
     if (one.name != camera) continue;
     draw({&one}, [&](const scene::Camera&, render::Image image) { out = std::move(image); });

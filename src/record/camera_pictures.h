@@ -9,11 +9,11 @@
 
 #include "render/image.h"
 #include "scene/scene.h"
-#include "sim/world.h"
+#include "session/session.h"
 
 namespace navvy::record {
 
-/// Draws pictures from the cameras of one world.
+/// Draws pictures from the cameras of one session.
 ///
 /// The first picture creates the drawing context, so a run without pictures needs none. Pictures
 /// are drawn on the calling thread.
@@ -22,8 +22,9 @@ class CameraPictures {
   /// Function that receives each picture as soon as it is drawn.
   using Receiver = std::function<void(const scene::Camera& camera, render::Image image)>;
 
-  /// Creates an object that draws `world`, which must outlive it. Draws nothing yet.
-  explicit CameraPictures(const sim::World& world);
+  /// Creates an object that draws the world of `session`, which must outlive it, with the overlays
+  /// of its scene. Draws nothing yet.
+  explicit CameraPictures(const session::Session& session);
   ~CameraPictures();
   CameraPictures(const CameraPictures&) = delete;
   CameraPictures& operator=(const CameraPictures&) = delete;
@@ -41,7 +42,7 @@ class CameraPictures {
  private:
   /// Drawing context and frame builder; created by the first picture.
   struct Context;
-  const sim::World& world_;
+  const session::Session& session_;
   std::unique_ptr<Context> context_;
 };
 

@@ -34,7 +34,7 @@ struct Recorder::State {
         crash_summary(std::in_place, folder->path("summary.reserve"), folder->path("summary.json")),
         telemetry(s, folder->path("telemetry.csv")),
         arrays(s, *folder),
-        pictures(s.world()),
+        pictures(s),
         picture_files(*folder, options.picture_format) {
     // A resumed run counts only its own speed.
     status.start_time = s.world().time();

@@ -68,7 +68,7 @@ std::vector<ColumnRect> GroundSurface::update(const scene::FrameGround& ground,
                      x0_ != static_cast<float>(ground.origin.x()) ||
                      y0_ != static_cast<float>(ground.origin.y()) || !(lighting == lighting_) ||
                      !same(soil_color_, ground.soil_color) || soil_moist_ != ground.soil_moist ||
-                     height_.size() != n;
+                     cut_fill_ != static_cast<float>(ground.cut_fill) || height_.size() != n;
   // A frame may be drawn several times.
   if (!fresh && revision_ == ground.revision) return {};
   const std::vector<ColumnRect> changed =
@@ -101,6 +101,7 @@ void GroundSurface::start(const scene::FrameGround& ground, const Lighting& ligh
   lighting_ = lighting;
   soil_color_ = ground.soil_color;
   soil_moist_ = ground.soil_moist;
+  cut_fill_ = static_cast<float>(ground.cut_fill);
   for (std::vector<float>* heights : {&height_, &top_, &raw_, &raw_top_, &change_})
     heights->assign(columns, 0);
   soil_.assign(columns, 0);
@@ -309,6 +310,12 @@ Vec3f GroundSurface::weathered(std::uint8_t soil, const Vec3f& p, float change, 
   const Vec3f loose = desaturate(base, 0.05f) * (0.90f + 0.04f * broad + 0.06f * fine);
   color += (fresh - color) * dug;
   color += (loose - color) * dumped;
+  if (cut_fill_ > 0) {
+    // Below a hundredth of the scale the ground counts as untouched.
+    const float share = smooth_step(0.01f, 1.0f, std::abs(change) / cut_fill_);
+    const Vec3f mark = change < 0 ? Vec3f(0.85f, 0.10f, 0.08f) : Vec3f(0.10f, 0.25f, 0.85f);
+    if (share > 0) color += (mark - color) * (0.25f + 0.65f * share);
+  }
   return color.cwiseMax(0.0f);
 }
 

@@ -154,6 +154,8 @@ class GroundSurface {
   // Base colours, and whether freshly dug soil is moist, by the index of the soil.
   std::vector<scene::Color> soil_color_;
   std::vector<std::uint8_t> soil_moist_;
+  // Scale of the colour by cut and fill [m]; 0: none.
+  float cut_fill_ = 0;
   // Arrays with one entry per column: drawn heights in W without and with loose soil [m], the
   // frame's heights of both [m], and change of height since the start [m]. `scratch_` is temporary
   // memory for sums.

@@ -17,6 +17,7 @@
 #include "core/stopwatch.h"
 #include "render/gl_context.h"
 #include "render/gl_draw.h"
+#include "render/overlay_layer.h"
 #include "render/particle_mesh.h"
 #include "render/shadow_map.h"
 #include "render/shape_cache.h"
@@ -108,6 +109,7 @@ class Renderer::Impl {
   void place(const scene::Frame& frame);
   void cast_shadows(const scene::Frame& frame, const Lighting& lighting);
   void draw_machines(const View& view, const scene::FrameCamera& camera, const Lighting& lighting);
+  void draw_overlay(const View& view, const scene::FrameOverlay& overlay);
   SoDirectionalLight* add_light();
 
   RenderOptions options_;
@@ -128,6 +130,7 @@ class Renderer::Impl {
   SoEnvironment* environment_ = nullptr;
   SoDirectionalLight *sun_ = nullptr, *sky_ = nullptr, *bounce_ = nullptr;
   SoSeparator* machines_ = nullptr;
+  std::unique_ptr<OverlayLayer> overlay_;
   std::uint32_t cache_context_ = 0;
 };
 
@@ -153,9 +156,13 @@ Renderer::Impl::Impl(const RenderOptions& options) : options_(options), terrain_
   machines_ = new SoSeparator;
   machines_->renderCaching = SoSeparator::OFF;
   root_->addChild(machines_);
+  overlay_ = std::make_unique<OverlayLayer>(camera_);
 }
 
-Renderer::Impl::~Impl() { root_->unref(); }
+Renderer::Impl::~Impl() {
+  overlay_.reset();
+  root_->unref();
+}
 
 SoDirectionalLight* Renderer::Impl::add_light() {
   auto* light = new SoDirectionalLight;
@@ -284,10 +291,20 @@ void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& c
   action.apply(root_);
 }
 
+void Renderer::Impl::draw_overlay(const View& view, const scene::FrameOverlay& overlay) {
+  if (overlay.empty()) return;
+  overlay_->set(overlay, view);
+  SoGLRenderAction action(
+      SbViewportRegion(static_cast<short>(view.width), static_cast<short>(view.height)));
+  action.setCacheContext(cache_context_);
+  action.apply(overlay_->root());
+}
+
 Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera& camera,
                              DepthImage* depth) {
   const Stopwatch watch;
-  context_.begin(camera.width, camera.height, options_.samples);
+  // A depth picture is read from the plain buffer.
+  context_.begin(camera.width, camera.height, depth != nullptr ? 1 : camera.samples);
   const View view(camera);
   const Lighting lighting = make_lighting(frame.lights);
   // The ground is updated first: its surface determines which particles are falling and how the sun
@@ -324,6 +341,7 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   draw_.sky(view, lighting);
   draw_.end();
   draw_machines(view, camera, lighting);
+  draw_overlay(view, frame.overlay);
 
   if (depth != nullptr) *depth = depth_image(context_.depth(), view.width, view.height);
   context_.finish();

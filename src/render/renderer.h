@@ -11,9 +11,6 @@ namespace navvy::render {
 
 /// Options that apply to all pictures of a Renderer.
 struct RenderOptions {
-  /// Number of samples per pixel, 1 or 4. Four samples smooth edges and take two to three times as
-  /// long.
-  int samples = 1;
   /// True to draw ground beyond the edge of the site, which fades into haze; false to draw only the
   /// site.
   bool surroundings = true;

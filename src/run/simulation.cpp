@@ -393,7 +393,7 @@ render::Image Simulation::image(const std::string& camera) {
   // The drawing context of the recorder serves where there is one: another would build the ground's
   // mesh again.
   if (s.recorder) return s.recorder->draw(camera);
-  if (!s.pictures) s.pictures = std::make_unique<record::CameraPictures>(s.world());
+  if (!s.pictures) s.pictures = std::make_unique<record::CameraPictures>(*s.session);
   return s.pictures->draw(camera);
 }
 

@@ -51,6 +51,9 @@ struct FrameGround {
   std::vector<Color> soil_color;
   /// 1 for each soil, by soil index, that is moist and darker where it is freshly dug. Empty: all.
   std::vector<std::uint8_t> soil_moist;
+  /// Scale of the color by cut and fill [m]: soil is drawn in full color where `change` has this
+  /// magnitude. 0: soil has its own color.
+  double cut_fill = 0;
   std::uint64_t revision = 0;  ///< counter that changes whenever any height has changed
   /// Rectangles that contain every height change since the previous revision; they may overlap.
   std::vector<FrameRect> changed;
@@ -75,6 +78,31 @@ struct FrameParticles {
   std::vector<float> away;
 };
 
+/// A line through points in W, drawn over a picture.
+struct FrameLine {
+  std::vector<Vec3> points;  ///< points in W [m], at least two
+  Color color;               ///< color as the picture shows it
+  double width = 2;          ///< width [pixels]
+  bool hidden = false;       ///< true: bodies and ground hide the parts behind them
+};
+
+/// A label at a point in W, drawn over a picture.
+struct FrameLabel {
+  Vec3 p_W = Vec3::Zero();  ///< left end of the text in W [m]
+  std::string text;         ///< the text, one line
+  Color color;              ///< color as the picture shows it
+};
+
+/// Lines and text over a picture that explain it.
+struct FrameOverlay {
+  std::vector<FrameLine> lines;    ///< lines
+  std::vector<FrameLabel> labels;  ///< labels
+  std::string caption;             ///< text along the upper edge, one line; empty: none
+
+  /// Returns true if there is nothing to draw.
+  bool empty() const { return lines.empty() && labels.empty() && caption.empty(); }
+};
+
 /// All input for drawing one picture. One thread may fill it while another draws an earlier one.
 struct Frame {
   double time = 0;                       ///< simulated time [s]
@@ -83,6 +111,7 @@ struct Frame {
   FrameGround ground;                    ///< surface of the ground at `time`
   FrameParticles particles;              ///< loose soil at `time`
   std::vector<Light> lights;             ///< lights of the scene; the first one casts shadows
+  FrameOverlay overlay;                  ///< lines and text over the picture
 };
 
 /// Camera of one frame. In the camera frame C, x points right, y up, and the camera looks along -z,
@@ -91,6 +120,7 @@ struct FrameCamera {
   Pose X_WC = Pose::Identity();    ///< pose of the camera in W
   double fov = radians(50);        ///< horizontal field of view [rad]
   int width = 1280, height = 720;  ///< width and height of the picture [pixels]
+  int samples = 1;                 ///< samples per pixel, 1 or 4
 };
 
 }  // namespace navvy::scene

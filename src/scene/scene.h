@@ -128,6 +128,8 @@ struct MachineInWorld {
 struct Camera {
   /// Type of mounting: fixed in the world, following a machine, or mounted on a link.
   enum class Kind { kFixed, kChase, kOnLink };
+  /// Subject of the pictures: the camera moves along its direction until the subject fills them.
+  enum class Framed { kNothing, kMachine, kProgram, kAll };
   std::string name;          ///< name of the camera and of its image files
   Kind kind = Kind::kFixed;  ///< type of mounting
   /// Names of the machine (kChase and kOnLink) and of the link (kOnLink).
@@ -137,6 +139,9 @@ struct Camera {
   double fov = radians(50);        ///< horizontal field of view [rad]
   int width = 1280, height = 720;  ///< width and height of an image [pixels]
   double rate = 4;                 ///< images per second of simulated time
+  /// Subject of the pictures; `position` and `target` then give only the direction.
+  Framed frame = Framed::kNothing;
+  int samples = 4;  ///< samples per pixel, 1 or 4
 
   /// Passes the fields of <navvy:camera> to the visitor `f`.
   void describe(Fields& f) {
@@ -149,6 +154,13 @@ struct Camera {
     f("width_px", width, {16, 8192}, "Width of an image.");
     f("height_px", height, {16, 8192}, "Height of an image.");
     f("rate_hz", rate, {0.001, 1000}, "Images per simulated second.");
+    f("frame", frame,
+      {{"none", Framed::kNothing},
+       {"machine", Framed::kMachine},
+       {"program", Framed::kProgram},
+       {"all", Framed::kAll}},
+      "What fills the pictures: the camera keeps its direction and moves closer or away.");
+    f("samples", samples, {{"1", 1}, {"4", 4}}, "Samples per pixel; 4 smooth the edges.");
   }
 };
 
@@ -225,6 +237,7 @@ struct Scene {
   std::vector<Hitch> hitches;            ///< couplings between machines
   std::vector<Camera> cameras;           ///< cameras that record images
   std::vector<Light> lights;             ///< lights; the first one is the sun
+  std::string show;                      ///< names of overlays in pictures, separated by blanks
   Recording recording;                   ///< length and output of the run
   std::vector<MapRecord> records;        ///< maps and messages that the run writes
   Forbidden forbidden;                   ///< events that end the run as failed
@@ -251,6 +264,10 @@ struct Scene {
     f("navvy:hitch", hitches, limits::kMachines, "Ball joint between two machines that can open.");
     f("navvy:camera", cameras, limits::kMachines, "Camera that records images.", kShown);
     f("light", lights, limits::kMachines, "Directional light.", kSdf | kShown);
+    f("navvy:show", show,
+      "Overlays in pictures, separated by blanks: joints, hitches, forces, wheel_loads, payload, "
+      "design, path, grid, person, hud, and one color of cut_fill, active, density, speed.",
+      kShown);
     f("navvy:recording", recording, "Length and output of a run.", kShown);
     f("navvy:record", records, limits::kMachines, "Maps that a run writes at a rate.", kShown);
     f("navvy:forbid", forbidden, "Events that end a run as failed.", kShown);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "scene_io/bucket_reader.h"
@@ -18,6 +19,12 @@ namespace navvy::scene_io {
 
 namespace {
 
+/// Returns a scene in which the machine of a file stands alone.
+std::unique_ptr<Document> standing_alone(const std::string& file, const scene::Machine& machine,
+                                         Faults& faults) {
+  return Document::parse(scene_around(file, height_to_stand(machine)), file, faults);
+}
+
 /// Returns `document`, or a scene around it if it holds a machine alone.
 std::unique_ptr<Document> with_world(std::unique_ptr<Document> document, Faults& faults) {
   const Element* root = document ? document->root() : nullptr;
@@ -27,8 +34,34 @@ std::unique_ptr<Document> with_world(std::unique_ptr<Document> document, Faults&
   // The faults of the machine are reported when the scene includes it.
   Faults unread;
   const scene::Machine machine = read_machine_file(document->file(), unread);
-  return Document::parse(scene_around(document->file(), height_to_stand(machine)), document->file(),
-                         faults);
+  return standing_alone(document->file(), machine, faults);
+}
+
+/// Reads a scene after its references and overrides.
+scene::Scene read_scene(Document& document, const scene::StepKinds& kinds,
+                        const Overrides& overrides, Faults& faults) {
+  check_resolved(document, faults);
+  // The same rules check the values of the file and of the command line.
+  apply_overrides(document, overrides, faults);
+  complete_world(document, faults);
+  scene::Scene world = read_world(document, kinds, faults);
+  warn_of_unused_seed(document, overrides, world, faults);
+  return world;
+}
+
+/// Returns the scene in which the machine of a file stands alone; nothing if the overrides have
+/// errors, which are added to `faults`. Those of the machine are there already.
+std::optional<scene::Scene> scene_of_machine(const std::string& file, const scene::Machine& machine,
+                                             const scene::StepKinds& kinds,
+                                             const Overrides& overrides, Faults& faults) {
+  Faults around;
+  const std::unique_ptr<Document> document = standing_alone(file, machine, around);
+  scene::Scene world;
+  if (document) world = read_scene(*document, kinds, overrides, around);
+  for (const Fault& fault : around.list())
+    if (fault.severity == Fault::Severity::kError) faults.add(fault);
+  if (around.has_errors()) return std::nullopt;
+  return world;
 }
 
 scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& kinds,
@@ -36,14 +69,7 @@ scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& ki
   scene::Scene world;
   // Without a document, finish() throws the fault of opening it.
   document = with_world(std::move(document), faults);
-  if (document) {
-    check_resolved(*document, faults);
-    // The same rules check the values of the file and of the command line.
-    apply_overrides(*document, overrides, faults);
-    complete_world(*document, faults);
-    world = read_world(*document, kinds, faults);
-    warn_of_unused_seed(*document, overrides, world, faults);
-  }
+  if (document) world = read_scene(*document, kinds, overrides, faults);
   faults.finish();
   // A faulty scene cannot be written out.
   if (document && resolved != nullptr) *resolved = resolved_text(*document, world);
@@ -119,13 +145,11 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
     check_bucket_file(*document, faults);
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
     scene::Machine read = read_machine_file(file, faults);
+    if (world != nullptr && faults.error_count() == 0)
+      *world = scene_of_machine(file, read, kinds, overrides, faults);
     if (machine != nullptr && faults.error_count() == 0) *machine = std::move(read);
   } else {
-    check_resolved(*document, faults);
-    apply_overrides(*document, overrides, faults);
-    complete_world(*document, faults);
-    scene::Scene read = read_world(*document, kinds, faults);
-    warn_of_unused_seed(*document, overrides, read, faults);
+    scene::Scene read = read_scene(*document, kinds, overrides, faults);
     // Warnings do not prevent the use of a scene.
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }

@@ -33,6 +33,8 @@ struct Overrides {
   std::optional<double> duration;     ///< maximum duration of the run [s]
   /// Soil of the site: a name of a shipped soil or a file. It replaces the one soil of the scene.
   std::optional<std::string> soil;
+  /// Names of overlays in pictures, separated by blanks.
+  std::optional<std::string> show;
   std::optional<bool> render;  ///< true: cameras record images
   /// Path of a heightmap, relative to the working directory; it replaces procedural shapes.
   std::optional<std::string> terrain;
@@ -73,11 +75,11 @@ struct FaultCount {
   std::size_t errors = 0, warnings = 0;  ///< numbers of errors and of warnings
 };
 
-/// Checks a world, machine, soil or materials file and returns all errors and warnings. `overrides`
-/// apply to a world only. Without errors, `*world` or `*machine` receives the content of the file,
-/// depending on the file's type; otherwise both are reset. `*count` receives the total numbers of
-/// errors and warnings. Each of these three pointers may be null. Throws nothing except
-/// std::bad_alloc.
+/// Checks a world, machine, soil or materials file and returns all errors and warnings. Without
+/// errors, `*world` receives the scene of the file, and for a machine alone the scene in which it
+/// stands on the ground, as for `load_scene`; `*machine` then receives the machine, and is reset
+/// for a scene. `overrides` apply to the scene. `*count` receives the total numbers of errors and
+/// warnings. Each of these three pointers may be null. Throws nothing except std::bad_alloc.
 std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
                          std::optional<scene::Scene>* world = nullptr,
                          const Overrides& overrides = {},

@@ -396,6 +396,7 @@ void apply_overrides(Document& document, const Overrides& overrides, Faults& fau
     }
   }
   if (overrides.seed) set_value(*world, "navvy:seed", std::to_string(*overrides.seed));
+  if (overrides.show) set_value(*world, "navvy:show", *overrides.show);
   if (overrides.duration)
     set_value(section(*world, "navvy:recording"), "duration_s",
               scene::exact_text(*overrides.duration));

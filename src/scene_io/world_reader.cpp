@@ -5,8 +5,10 @@
 #include <limits>
 #include <map>
 
+#include "core/edit_distance.h"
 #include "core/limits.h"
 #include "geometry/pieces.h"
+#include "scene/overlay.h"
 #include "scene/soil_values.h"
 #include "scene_io/assembly.h"
 #include "scene_io/design_reader.h"
@@ -107,6 +109,9 @@ void read_cameras(Element& world_element, scene::Scene& world, Faults& faults) {
     if (camera.machine.empty() && !camera.link.empty())
       faults.error(*e, camera.link, "a camera on a link needs <machine>, too",
                    "name the machine in <machine>");
+    if (!camera.link.empty() && camera.frame != scene::Camera::Framed::kNothing)
+      faults.error(child_or_self(*e, "frame"), "", "a camera on a link frames nothing",
+                   "remove <frame> or <link>");
     // A camera needs a direction to look in.
     if ((camera.position - camera.target).norm() < 1e-3)
       faults.error(*e, "", "position_m and target_m must not be the same place",
@@ -114,6 +119,27 @@ void read_cameras(Element& world_element, scene::Scene& world, Faults& faults) {
     check_camera_names(*e, camera, world, faults);
     require_new_name(*e, camera.name, "camera", world.cameras, "rename one of them", faults);
     world.cameras.push_back(std::move(camera));
+  }
+}
+
+/// Reads the names of overlays.
+void read_overlays(Element& world_element, scene::Scene& world, Faults& faults) {
+  Element* e = world_element.FirstChildElement("navvy:show");
+  if (e == nullptr) return;
+  world.show = text_of(*e);
+  std::vector<std::string> known;
+  for (const scene::OverlayInfo& one : scene::overlays()) known.push_back(one.name);
+  std::string color;
+  for (const std::string& word : words_of(world.show)) {
+    const scene::OverlayInfo* one = scene::overlay_named(word);
+    if (one == nullptr) {
+      faults.error(*e, word, "is no overlay", suggestion(word, known));
+    } else if (one->color && !color.empty() && color != word) {
+      faults.error(*e, word, "soil has one color, and '" + color + "' sets it already",
+                   "remove one of the two");
+    } else if (one->color) {
+      color = word;
+    }
   }
 }
 
@@ -320,6 +346,7 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   read_goals(*element, world, faults);
   read_records(*element, world, faults);
   read_cameras(*element, world, faults);
+  read_overlays(*element, world, faults);
   for (Element* e : children_of(*element, {"light"})) read_light(*e, world.lights, faults);
   return world;
 }

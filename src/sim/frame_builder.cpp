@@ -20,6 +20,17 @@ constexpr heightfield::SurfaceKind kDrawn = heightfield::SurfaceKind::kColumns;
 constexpr int kWindow = 1024;  // columns along one side of the drawn ground
 // Smallest distance of a drawn lump's centre from steel, in its radius.
 constexpr double kOffPlates = 1.1;
+constexpr int kShades = 16;          // colors of the scale from low to high values
+constexpr double kFullSpeed = 1.0;   // speed at the upper end of the scale [m/s]
+constexpr double kFullChange = 0.5;  // cut or fill at the upper end of its scale [m]
+
+/// Returns the color of a value from 0 to 1: blue, green, yellow, red.
+scene::Color shade(double value) {
+  const auto peak = [value](double at) {
+    return static_cast<float>(std::clamp(1.5 - 4 * std::abs(value - at), 0.05, 0.9));
+  };
+  return {peak(0.85), peak(0.5), peak(0.15), 1};
+}
 
 /// Returns the pose of an OpenGL camera at `eye` looking at `target`, z of the world up.
 Pose look_at(const Vec3& eye, const Vec3& target) {
@@ -40,14 +51,26 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 
 }  // namespace
 
-FrameBuilder::FrameBuilder(const World& world)
-    : world_(world), plates_(std::make_unique<ParticleClipper>(world)) {
+FrameBuilder::FrameBuilder(const World& world, const std::string& show)
+    : world_(world), framing_(world), plates_(std::make_unique<ParticleClipper>(world)) {
   // Fill in constants once.
   for (const scene::Soil& soil : world.description().soils) {
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
     // Soil without cohesion is dry: it does not darken where it is dug.
     frame_.ground.soil_moist.push_back(soil.cohesion > 0 ? 1 : 0);
   }
+  for (const scene::Overlay one : scene::overlays_of(show)) {
+    if (one == scene::Overlay::kCutFill) frame_.ground.cut_fill = kFullChange;
+    if (one == scene::Overlay::kActive || one == scene::Overlay::kDensity ||
+        one == scene::Overlay::kSpeed)
+      color_ = one;
+  }
+  // Colored particles have the indices after those of the soils.
+  if (color_)
+    for (int i = 0; i < kShades; ++i) {
+      frame_.ground.soil_color.push_back(shade((i + 0.5) / kShades));
+      frame_.ground.soil_moist.push_back(0);
+    }
   frame_.lights = world.description().lights;
   if (frame_.lights.empty()) frame_.lights.push_back({});
   frame_.ground.cell = world.ground().cell();
@@ -195,7 +218,10 @@ void FrameBuilder::add_particles() {
     for (int i = 0; i < 3; ++i)
       out.position.push_back(
           static_cast<float>(block * (p.block[i] - first[i]) + ground.cell() * p.x[i]));
-    out.soil.push_back(static_cast<std::uint8_t>(p.soil));
+    const std::size_t soils = world_.description().soils.size();
+    const int step = color_ ? std::min(static_cast<int>(shade_of(p) * kShades), kShades - 1) : 0;
+    out.soil.push_back(
+        static_cast<std::uint8_t>(color_ ? soils + static_cast<std::size_t>(step) : p.soil));
     out.id.push_back(p.id);
   }
   // Lumps vary in size randomly; twice the radius covers the largest. Particles on steel are moved
@@ -204,12 +230,25 @@ void FrameBuilder::add_particles() {
   plates_->keep_off(out, kOffPlates * out.radius, 2 * out.radius);
 }
 
+double FrameBuilder::shade_of(const soil::Particle& particle) const {
+  double out = 0.8;  // orange, for all active soil
+  if (color_ == scene::Overlay::kSpeed)
+    out = Vec3(particle.v[0], particle.v[1], particle.v[2]).norm() / kFullSpeed;
+  if (color_ == scene::Overlay::kDensity) {
+    const double swell = world_.description().soils.at(particle.soil).swell;
+    out = (particle.j - 1) / std::max(swell - 1, 1e-3);
+  }
+  // A particle out of hand must not be out of the scale.
+  return out >= 0 ? std::min(out, 1.0) : 0.0;
+}
+
 // Fixed, on a link, or following a machine's heading.
 scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   scene::FrameCamera out;
   out.fov = camera.fov;
   out.width = camera.width;
   out.height = camera.height;
+  out.samples = camera.samples;
   Pose X = Pose::Identity();
   // Fixed cameras are given in W, the others in the frame that they move with.
   if (camera.kind != scene::Camera::Kind::kFixed) {
@@ -230,6 +269,7 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
     }
   }
   out.X_WC = look_at(X * camera.position, X * camera.target);
+  frame_points(framing_.points(camera), out);
   // Keep the camera above the ground.
   const Vec3 eye = out.X_WC.translation();
   const double floor = terrain_view(world_, kDrawn).sample(eye.x(), eye.y()) + 0.3;

@@ -4,10 +4,18 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "heightfield/change_follower.h"
 #include "scene/frame.h"
+#include "scene/overlay.h"
+#include "sim/camera_framing.h"
 #include "sim/world.h"
+
+namespace navvy::soil {
+struct Particle;
+}
 
 namespace navvy::sim {
 
@@ -21,13 +29,18 @@ class ParticleClipper;
 /// of its width of its edge.
 class FrameBuilder {
  public:
-  /// Creates a builder for frames of `world`, which must outlive this object.
-  explicit FrameBuilder(const World& world);
+  /// Creates a builder for frames of `world`, which must outlive this object. `show` has names of
+  /// overlays as in scene::Scene::show; those that color soil are applied here, the others by the
+  /// caller, through `overlay`.
+  explicit FrameBuilder(const World& world, const std::string& show = "");
   ~FrameBuilder();
   /// Returns a frame of the world's current state. It is valid until the next call.
   const scene::Frame& build();
+  /// Returns the lines and text over the pictures of the frames, which only the caller changes.
+  scene::FrameOverlay& overlay() { return frame_.overlay; }
   /// Returns the current pose of a scene camera. A camera that chases a machine follows the
-  /// machine's position and heading, but not its pitch and roll.
+  /// machine's position and heading, but not its pitch and roll. A camera that frames something
+  /// moves along its direction until that fills the picture.
   /// @throws InputError if the camera's machine does not exist.
   scene::FrameCamera camera(const scene::Camera& camera) const;
 
@@ -48,8 +61,13 @@ class FrameBuilder {
   void add_machines();
   /// Adds the active particles, moved away from the plates of tools.
   void add_particles();
+  /// Returns the position of an active particle on the scale of colors, from 0 to 1. Needs
+  /// `color_`.
+  double shade_of(const soil::Particle& particle) const;
 
   const World& world_;
+  /// Overlay that colors active soil; without one, soil has its own color.
+  std::optional<scene::Overlay> color_;
   /// Frame that `build` fills and returns.
   scene::Frame frame_;
   /// Ground columns that are drawn, as column indices of the site.
@@ -58,6 +76,8 @@ class FrameBuilder {
   heightfield::ChangeFollower changes_;
   /// The same for the surface with the active soil that rests on it.
   heightfield::ChangeFollower loose_changes_;
+  /// Finds what the scene's cameras frame.
+  CameraFraming framing_;
   /// Moves drawn particles away from the plates of tools.
   std::unique_ptr<ParticleClipper> plates_;
 };

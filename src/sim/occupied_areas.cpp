@@ -14,12 +14,6 @@ namespace {
 
 using heightfield::OccupiedArea;
 
-/// Returns true for a machine; false for a body that only stands, moves as one piece, or falls.
-bool is_machine(const scene::MachineInWorld& placed) {
-  return placed.machine.has_drive || !placed.machine.joints.empty() ||
-         !placed.program.steps.empty();
-}
-
 // Eight corners in W; the outline is their convex hull as seen from above.
 OccupiedArea area_of(const Pose& X_WL, const geometry::OrientedBox& box, bool machine) {
   std::vector<Vec3> corners;
@@ -52,6 +46,11 @@ void add_areas(const scene::MachineInWorld& placed, const std::function<Pose(std
 }
 
 }  // namespace
+
+bool is_machine(const scene::MachineInWorld& placed) {
+  return placed.machine.has_drive || !placed.machine.joints.empty() ||
+         !placed.program.steps.empty();
+}
 
 std::vector<OccupiedArea> occupied_areas(const scene::Scene& scene, const std::vector<Pose>& X_WB,
                                          const std::vector<char>& included) {

@@ -12,6 +12,9 @@
 
 namespace navvy::sim {
 
+/// Returns true for a machine; false for a body that only stands, moves as one piece, or falls.
+bool is_machine(const scene::MachineInWorld& placed);
+
 /// Returns the areas of the bodies of `scene`, whose base links stand at the poses `X_WB` in W, one
 /// per machine of the scene, with the joints as in their files. Each collision shape, wheel and
 /// shell has an area of its own; planes have none.

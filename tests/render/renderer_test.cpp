@@ -87,6 +87,99 @@ TEST_F(RendererTest, DrawsEveryColumnOfAHeightfield) {
   EXPECT_GE(renderer.stats().ground_triangles, 2000);
 }
 
+bool is_green(const std::uint8_t* p) { return p[1] > 2 * p[0] && p[1] > 2 * p[2] && p[1] > 60; }
+
+int green_pixels(const Image& image) {
+  int out = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) out += is_green(&image.rgb[i]) ? 1 : 0;
+  return out;
+}
+
+TEST_F(RendererTest, DrawsLinesWhereTheyAreAndHidesThemBehindGroundIfAsked) {
+  Renderer renderer;
+  const Image without = renderer.render(frame_, camera_);
+  EXPECT_EQ(green_pixels(without), 0);
+  const scene::Color green{0, 1, 0, 1};
+  const Vec3 from(-1, 0, 0.5), to(1, 0.5, 0.5);
+  frame_.overlay.lines = {{{from, to}, green, 2, false}};
+  const Image with = renderer.render(frame_, camera_);
+  const double length = (project(camera_, from) - project(camera_, to)).norm();
+  EXPECT_NEAR(green_pixels(with), 2 * length, 0.5 * length);
+  const Vec2 middle = project(camera_, 0.5 * (from + to));
+  int near = 0;
+  for (int dy = -2; dy <= 2; ++dy)
+    for (int dx = -2; dx <= 2; ++dx)
+      near +=
+          is_green(with.pixel(static_cast<int>(middle.x()) + dx, static_cast<int>(middle.y()) + dy))
+              ? 1
+              : 0;
+  EXPECT_GE(near, 4);
+  // Below the ground: seen through it unless it hides the line.
+  frame_.overlay.lines = {{{Vec3(-1, 0, -0.5), Vec3(1, 0, -0.5)}, green, 2, false}};
+  EXPECT_GT(green_pixels(renderer.render(frame_, camera_)), 50);
+  frame_.overlay.lines.front().hidden = true;
+  EXPECT_EQ(green_pixels(renderer.render(frame_, camera_)), 0);
+  frame_.overlay = {};
+  EXPECT_EQ(renderer.render(frame_, camera_).rgb, without.rgb);
+}
+
+TEST_F(RendererTest, DrawsTextAtItsPlaceAndTheCaptionAtTheUpperEdge) {
+  Renderer renderer;
+  const Image without = renderer.render(frame_, camera_);
+  frame_.overlay.labels = {{Vec3(0, 0, 0.2), "12.5 kN", {0, 1, 0, 1}}};
+  const Image labelled = renderer.render(frame_, camera_);
+  EXPECT_GT(green_pixels(labelled), 40);
+  const Vec2 place = project(camera_, {0, 0, 0.2});
+  int nearby = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      if (is_green(labelled.pixel(x, y)) && std::abs(x - place.x()) < 80 &&
+          std::abs(y - place.y()) < 20)
+        ++nearby;
+  EXPECT_EQ(nearby, green_pixels(labelled));
+  // A label behind the camera is not mirrored into the picture.
+  frame_.overlay.labels.front().p_W = Vec3(7, -8, 6);
+  EXPECT_EQ(green_pixels(renderer.render(frame_, camera_)), 0);
+  frame_.overlay = {};
+  frame_.overlay.caption = "trench  3.0 s";
+  const Image titled = renderer.render(frame_, camera_);
+  int changed = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      if (titled.pixel(x, y)[0] != without.pixel(x, y)[0]) {
+        EXPECT_LT(y, 30);
+        ++changed;
+      }
+  EXPECT_GT(changed, 100);
+}
+
+TEST_F(RendererTest, ColorsCutAndFill) {
+  Renderer renderer;
+  scene::FrameGround& ground = frame_.ground;
+  const auto set = [&](int x0, float change) {
+    for (int iy = 40; iy < 56; ++iy)
+      for (int ix = x0; ix < x0 + 12; ++ix) {
+        const std::size_t i = static_cast<std::size_t>(iy * ground.nx + ix);
+        ground.height[i] += change;
+        ground.change[i] += change;
+      }
+  };
+  set(30, -0.4f);
+  set(54, 0.4f);
+  ground.cut_fill = 0.5;
+  const scene::FrameCamera above = small_camera({0, 0, 8}, {0, 0, 0});
+  const Image image = renderer.render(frame_, above);
+  const auto at = [&](double x, double y) {
+    const Vec2 p = project(above, {x, y, 0});
+    return image.pixel(static_cast<int>(p.x()), static_cast<int>(p.y()));
+  };
+  EXPECT_TRUE(is_red(at(-1.2, 0)));
+  const std::uint8_t* fill = at(1.2, 0);
+  EXPECT_GT(fill[2], 2 * fill[0]) << "fill is blue";
+  const std::uint8_t* untouched = at(0, 2);
+  EXPECT_GT(untouched[0], untouched[2]) << "soil is brown";
+}
+
 TEST_F(RendererTest, DugCellsChangePixelsWhereTheyAre) {
   Renderer renderer;
   const Image before = renderer.render(frame_, camera_);

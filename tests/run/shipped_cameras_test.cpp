@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the cameras of the shipped scenes show, by projection.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "control/step_kinds.h"
+#include "paths.h"
+#include "run/simulation.h"
+#include "scene_io/loader.h"
+#include "sim/frame_builder.h"
+#include "sim/occupied_areas.h"
+
+namespace navvy::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> shipped_scenes() {
+  const fs::path root = fs::path(source_dir()) / "scenarios";
+  std::vector<std::string> out;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root))
+    if (entry.path().extension() == ".sdf")
+      out.push_back(fs::relative(entry.path(), root).generic_string());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Returns the share of the picture's width that a machine takes, 0 if a part of it is outside.
+double share_of_width(const sim::World& world, std::size_t machine,
+                      const scene::FrameCamera& camera) {
+  std::vector<char> included(world.description().machines.size(), 0);
+  included.at(machine) = 1;
+  double left = 2, right = -2;
+  for (const heightfield::OccupiedArea& area : sim::occupied_areas(world, included))
+    for (const Vec2& corner : area.outline)
+      for (const double z : {area.low, area.high}) {
+        const Vec3 p = camera.X_WC.inverse() * Vec3(corner.x(), corner.y(), z);
+        const double tan_x = std::tan(0.5 * camera.fov);
+        const double x = p.x() / -p.z() / tan_x,
+                     y = p.y() / -p.z() / (tan_x * camera.height / camera.width);
+        if (p.z() >= 0 || std::abs(x) > 1 || std::abs(y) > 1) return 0;
+        left = std::min(left, x);
+        right = std::max(right, x);
+      }
+  return 0.5 * (right - left);
+}
+
+/// Expects that a fixed or following camera shows every machine, in scenes of the paper on a
+/// quarter of the picture's width.
+void expect_shown(const Simulation& simulation, const std::string& file) {
+  const sim::World& world = simulation.world();
+  const sim::FrameBuilder frames(world);
+  const scene::Scene& scene = world.description();
+  for (std::size_t m = 0; m < scene.machines.size(); ++m) {
+    if (!sim::is_machine(scene.machines[m])) continue;
+    double most = 0;
+    for (const scene::Camera& camera : scene.cameras)
+      if (camera.kind != scene::Camera::Kind::kOnLink)
+        most = std::max(most, share_of_width(world, m, frames.camera(camera)));
+    EXPECT_GT(most, file.rfind("paper/", 0) == 0 ? 0.25 : 0.02)
+        << file << " at " << world.time() << " s: " << scene.machines[m].name;
+  }
+}
+
+scene::Scene load(const std::string& file) {
+  scene_io::Overrides overrides;
+  overrides.render = false;
+  return scene_io::load_scene(source_dir() + "/scenarios/" + file, control::step_kinds(),
+                              overrides);
+}
+
+class ShippedCameras : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedCameras, ShowEveryMachineInTheFirstSecond) {
+  Simulation simulation(load(GetParam()));
+  expect_shown(simulation, GetParam());
+  while (simulation.time() < 1) simulation.step(100);
+  expect_shown(simulation, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedCameras, testing::ValuesIn(shipped_scenes()),
+                         [](const testing::TestParamInfo<std::string>& test) {
+                           std::string name = fs::path(test.param).replace_extension().string();
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
+
+TEST(ShippedCamera, ShowsTheRobotOverTheWholeRun) {
+  Simulation simulation(load("paper/diff_kinematic.sdf"));
+  while (!simulation.done()) {
+    simulation.step(200);
+    expect_shown(simulation, "paper/diff_kinematic.sdf");
+  }
+}
+
+}  // namespace
+}  // namespace navvy::run
