@@ -24,6 +24,7 @@ map::TerrainMap walled() {
   const heightfield::GroundSetup s = map::testing::setup(kNx, kNy);
   const Vec2 low = map::testing::centre(s, 20, 4), high = map::testing::centre(s, 22, 9);
   std::vector<Vec3> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i)
     corners.emplace_back((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
                          (i & 4) != 0 ? 1.5 : -0.2);

@@ -49,6 +49,7 @@ double reading(const sim::World& world, const std::string& array, std::size_t i 
 std::vector<double> factors(const sim::World& world) {
   const double mass = world.machines().at("bucket").tool("bucket").payload();
   std::vector<double> out;
+  out.reserve(kScales);
   for (int i = 0; i < kScales; ++i)
     out.push_back(reading(world, "scale_" + std::to_string(i) + "/mass") / mass);
   return out;
