@@ -87,27 +87,3 @@ def readers_command(arguments):
     workspace.run(sys.executable, "-m", "venv", "build/readers")
     wanted = ["mcap==1.6.0", "rosbags==0.11.9", "urdf_parser_py==0.0.4", "imageio-ffmpeg==0.8.1"]
     workspace.run("build/readers/bin/pip", "-q", "install", *wanted)
-
-
-def python_command(arguments):
-    """Builds the Python extension into build/<preset>/python and runs its tests.
-
-    nanobind, NumPy and Gymnasium come from PyPI into build/python-env, which every later build
-    finds. With --wheel, a wheel is built into build/wheel instead (python/README.md).
-    """
-    parser = workspace.parser(python_command, "python [--wheel]")
-    parser.add_argument("--wheel", action="store_true", help="build a wheel")
-    wheel = parser.parse_args(arguments).wheel
-    packages.install(packages.BASE, packages.PYTHON)
-    workspace.run(sys.executable, "-m", "venv", "build/python-env")
-    wanted = ["nanobind==3.1.0", "scikit-build-core==1.1.2", "numpy", "gymnasium"]
-    workspace.run("build/python-env/bin/pip", "-q", "install", *wanted)
-    if wheel:
-        workspace.run(
-            "build/python-env/bin/pip", "wheel", "-q", "--no-deps", "-w", "build/wheel", "./python"
-        )
-        return
-    python = "-DPython_EXECUTABLE=%s" % (ROOT / "build/python-env/bin/python")
-    build.configure(workspace.PRESET, python)
-    build.build("navvy", "navvy_python")
-    workspace.run("ctest", "--test-dir", BUILD, "-R", "^Python\\.", "--output-on-failure")

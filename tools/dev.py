@@ -13,6 +13,7 @@ import sanitize
 import scene_run
 import testing
 import validate
+import wheel
 import workspace
 
 
@@ -49,7 +50,7 @@ COMMANDS = {
     "sanitize": sanitize.sanitize_command,
     "nightly": nightly.nightly_command,
     "readers": campaigns.readers_command,
-    "python": campaigns.python_command,
+    "python": wheel.python_command,
     "install": packages.install_command,
 }
 
