@@ -12,6 +12,11 @@ _data = _os.path.join(_os.path.dirname(__file__), "data")
 if _os.path.isdir(_data) and not _os.environ.get("NAVVY_DATA_DIR"):
     _os.environ["NAVVY_DATA_DIR"] = _data
 
+from ._opencl import find_driver as _find_driver  # noqa: E402
+
+_find_driver()
+
+from ._calibrate import Calibration, calibrate  # noqa: E402
 from ._errors import (  # noqa: E402
     BusyError,
     ClosedError,
@@ -28,6 +33,7 @@ from ._world import Session, World, rollout  # noqa: E402
 
 __all__ = [
     "BusyError",
+    "Calibration",
     "Channel",
     "ClosedError",
     "DeviceError",
@@ -40,6 +46,7 @@ __all__ = [
     "SimulationError",
     "World",
     "__version__",
+    "calibrate",
     "devices",
     "layers",
     "rollout",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import os
-from typing import Any, Iterator
+from typing import Any, Iterator, Mapping
 
 from . import _navvy
 
@@ -132,10 +132,18 @@ class Scene:
         object.__setattr__(self, "_seed", seed)
 
     def _set(self, key: str, value: Any) -> None:
+        self.update({key: value})
+
+    def update(self, values: Mapping[str, Any]) -> None:
+        """Sets several values at once, by their paths: `scene.update({"soil.cohesion_pa": 2000,
+        "soil.residual_cohesion_pa": 500})`. They are checked together, so that values that bound
+        each other need no order.
+        """
         settings = dict(self._settings)
-        # The last setting counts, and it comes last.
-        settings.pop(key, None)
-        settings[key] = _text_of(value)
+        for key, value in values.items():
+            # The last setting counts, and it comes last.
+            settings.pop(key, None)
+            settings[key] = _text_of(value)
         self._read(settings, self._seed)
 
     def _node(self, value: Any, path: str, place: tuple) -> Any:

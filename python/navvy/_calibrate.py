@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fits soil parameters of a scene to measured forces or pressures.
+
+    found = navvy.calibrate("bucket_path", times, {"bucket/bucket/force_x": forces}, html="x.html")
+    print(found)
+
+The motion must be prescribed by the scene: its programs repeat what the machine did while it was
+measured. Each round simulates a batch of scenes whose parameters spread over a box, and fits a
+quadratic surface to the mean of each output in each time window. The scatter around that surface is
+the uncertainty of a window. With it every point of the box gets a likelihood (multivariate t) of
+having made the measurement; the intervals hold its stated share. The next round spreads over the
+part of the box that is left.
+"""
+from __future__ import annotations
+
+import concurrent.futures
+import contextlib
+import dataclasses
+import multiprocessing
+import os
+from typing import Mapping, Sequence
+
+import numpy as np
+
+from ._page import write_page
+from ._scene import Scene
+from ._world import Session
+
+#: Parameters that are fitted by default, with the box that is searched.
+SOIL = {"soil.friction_angle_deg": (20.0, 42.0), "soil.cohesion_pa": (500.0, 10000.0)}
+
+
+@dataclasses.dataclass
+class Calibration:
+    """Result of `calibrate`."""
+
+    names: list[str]  #: settings of the scene that were fitted
+    best: np.ndarray  #: mean of the likelihood, one value per name
+    low: np.ndarray  #: lower end of each interval
+    high: np.ndarray  #: upper end
+    level: float  #: share of the likelihood that an interval holds
+    misfit: float  #: squared deviation of the best fit per free window; about 1 for a good fit
+    runs: int  #: number of simulated scenes
+    times: np.ndarray  #: time of each sample [s]
+    measured: dict[str, np.ndarray]  #: measured series, by output
+    fitted: dict[str, np.ndarray]  #: the same outputs of the scene with the best values
+    points: np.ndarray  #: parameters of the scenes of the last round, shape (runs, names)
+    likely: np.ndarray  #: parameters drawn by their likelihood, shape (n, names)
+
+    def __str__(self) -> str:
+        rows = [
+            "%s = %.4g (%d %%: %.4g to %.4g)" % (name, best, round(100 * self.level), low, high)
+            for name, best, low, high in zip(self.names, self.best, self.low, self.high)
+        ]
+        return "\n".join(rows + ["misfit %.2g, %d runs" % (self.misfit, self.runs)])
+
+
+def settings_of(scene: Scene, names: Sequence[str], values: Sequence[float]) -> dict[str, float]:
+    """Returns the settings that give a scene these values. Cohesion takes that of remoulded soil
+    with it, in the ratio of the scene, as the schema wants it to be the smaller one.
+    """
+    out = {name: float(value) for name, value in zip(names, values)}
+    for name in names:
+        if name.startswith("soil") and name.endswith(".cohesion_pa"):
+            soil = scene.soil[0]
+            ratio = soil.residual_cohesion_pa / soil.cohesion_pa if soil.cohesion_pa > 0 else 0.0
+            out[name.replace("cohesion_pa", "residual_cohesion_pa")] = ratio * out[name]
+    return out
+
+
+def simulate(scene: Scene, outputs: Sequence[str], times: np.ndarray) -> np.ndarray:
+    """Returns the outputs of a scene at `times` [s], shape (times, outputs)."""
+    with Session(scene) as world:
+        keys = [world.output(name) for name in outputs]
+        rows = np.empty((len(times), len(keys)))
+        for row, time in zip(rows, times):
+            world.step(max(0, round(time / world.dt) - world.steps))
+            world.observe(row, keys)
+    return rows
+
+
+def _simulate(task: tuple) -> np.ndarray:
+    return simulate(*task)
+
+
+@contextlib.contextmanager
+def _pool(workers: int):
+    """Provides a function that simulates a list of tasks. Processes share no driver, which threads
+    of one process do.
+    """
+    if workers == 1:
+        yield lambda tasks: [simulate(*task) for task in tasks]
+        return
+    # OpenCL does not survive a fork.
+    spawn = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(workers, spawn) as pool:
+        yield lambda tasks: list(pool.map(_simulate, tasks))
+
+
+def _windows(rows: np.ndarray, count: int) -> np.ndarray:
+    """Returns the mean of each output in `count` windows of equal length, as one vector."""
+    return np.concatenate([part.mean(axis=0) for part in np.array_split(rows, count)])
+
+
+def _spread(count: int, box: np.ndarray, random: np.random.Generator) -> np.ndarray:
+    """Returns points of a box, spread evenly along each axis (Latin hypercube)."""
+    cells = np.array([random.permutation(count) for _ in box]).T
+    return box[:, 0] + (cells + random.random(cells.shape)) / count * (box[:, 1] - box[:, 0])
+
+
+class _Surface:
+    """Quadratic surfaces through windows of simulated scenes, with their scatter."""
+
+    def __init__(self, points: np.ndarray, windows: np.ndarray, box: np.ndarray) -> None:
+        self._middle, self._half = box.mean(axis=1), 0.5 * (box[:, 1] - box[:, 0])
+        terms = self._terms(points)
+        self.free = len(points) - terms.shape[1]
+        self._inverse = np.linalg.pinv(terms.T @ terms)
+        self._weights = self._inverse @ terms.T @ windows
+        left = windows - terms @ self._weights
+        scatter = left.T @ left / self.free
+        # Few runs estimate correlations badly: half of each is kept.
+        own = np.diag(np.diag(scatter))
+        floor = 1e-12 * (np.square(windows).mean() + 1e-300) * np.eye(len(own))
+        self._scatter = 0.5 * (scatter + own) + floor
+
+    def _terms(self, points: np.ndarray) -> np.ndarray:
+        x = (points - self._middle) / self._half
+        count = x.shape[1]
+        squares = [x[:, i] * x[:, j] for i in range(count) for j in range(i, count)]
+        return np.column_stack([np.ones(len(x)), x, *squares])
+
+    def deviation(self, points: np.ndarray, wanted: np.ndarray, noise: np.ndarray) -> np.ndarray:
+        """Returns the squared deviation of each point's windows from the measured ones, in units of
+        the scatter, to which the variance of the measurement is added.
+        """
+        terms = self._terms(points)
+        left = wanted - terms @ self._weights
+        spread = 1 + np.einsum("ij,jk,ik->i", terms, self._inverse, terms)
+        inverse = np.linalg.inv(self._scatter + np.diag(noise))
+        return np.einsum("ij,jk,ik->i", left, inverse, left) / spread
+
+
+def _weigh(deviation: np.ndarray, free: int, count: int) -> np.ndarray:
+    """Returns the likelihood of each point, with the sum 1."""
+    logs = -0.5 * (free + count) * np.log1p(deviation / free)
+    weights = np.exp(logs - logs.max())
+    return weights / weights.sum()
+
+
+def _quantile(values: np.ndarray, weights: np.ndarray, share: float) -> float:
+    order = np.argsort(values)
+    return float(np.interp(share, np.cumsum(weights[order]), values[order]))
+
+
+def calibrate(
+    scene: Scene | str | os.PathLike,
+    times: Sequence[float],
+    measured: Mapping[str, Sequence[float]],
+    *,
+    parameters: Mapping[str, tuple[float, float]] = SOIL,
+    windows: int = 8,
+    noise: float = 0.0,
+    samples: int = 16,
+    rounds: int = 2,
+    level: float = 0.95,
+    workers: int = 0,
+    seed: int = 1,
+    html: str | os.PathLike | None = None,
+) -> Calibration:
+    """Fits `parameters` (settings such as "soil.cohesion_pa", with the box to search) to series.
+
+    `measured` holds a series per output of the scene, such as the force on a bucket or the force of
+    a cylinder, at increasing `times` [s] after the scene's start. Means over `windows` parts of the
+    series are compared; `noise` is the standard deviation of such a mean that the measurement
+    adds, as a share of the largest sample of its output. Each of the `rounds` simulates `samples`
+    scenes, in as many processes as `workers` (one per processor with 0, in this process with 1); a
+    script that calls it needs the usual `if __name__ == "__main__":`. `html` names a page that
+    shows the result.
+    """
+    scene = scene.copy() if isinstance(scene, Scene) else Scene(scene)
+    times = np.asarray(times, dtype=float)
+    series = {name: np.asarray(values, dtype=float) for name, values in measured.items()}
+    outputs, names = list(series), list(parameters)
+    count = len(names)
+    least = (count + 1) * (count + 2) // 2 + 4
+    if times.ndim != 1 or len(times) < windows or (np.diff(times) <= 0).any() or times[0] < 0:
+        raise ValueError("times must increase from 0 or later, at least one per window")
+    for name, values in series.items():
+        if values.shape != times.shape or not np.isfinite(values).all():
+            raise ValueError("%s must have one finite number per time" % name)
+    if not outputs or not names or samples < least or rounds < 1 or not 0 < level < 1:
+        raise ValueError("give outputs, parameters, at least %d samples and a round" % least)
+    random = np.random.default_rng(seed)
+    wanted = _windows(np.column_stack(list(series.values())), windows)
+    largest = np.array([np.abs(values).max() for values in series.values()])
+    variance = np.tile(np.square(noise * largest), windows)
+    bounds = np.array([parameters[name] for name in names], dtype=float)
+    box, points, found = bounds, np.empty((0, count)), np.empty((0, len(wanted)))
+
+    def scene_at(point):
+        changed = scene.copy()
+        changed.update(settings_of(scene, names, point))
+        return changed
+
+    with _pool(workers or os.cpu_count() or 1) as each:
+        for turn in range(rounds):
+            more = _spread(samples, box, random)
+            rows = each([(scene_at(point), outputs, times) for point in more])
+            points = np.vstack([points, more])
+            found = np.vstack([found, [_windows(one, windows) for one in rows]])
+            # Far from the present box the surfaces need not be quadratic.
+            near = ((points >= box[:, 0]) & (points <= box[:, 1])).all(axis=1)
+            surface = _Surface(points[near], found[near], box)
+            tried = _spread(40000, box, random)
+            deviation = surface.deviation(tried, wanted, variance)
+            weights = _weigh(deviation, surface.free, len(wanted))
+            best = weights @ tried
+            spread = np.sqrt(weights @ np.square(tried - best))
+            if turn + 1 < rounds:
+                # Over the wide box a quadratic surface is off, and so is the place of the next one.
+                half = np.maximum(5 * spread, 0.3 * (box[:, 1] - box[:, 0]))
+                box = np.column_stack(
+                    [np.maximum(bounds[:, 0], best - half), np.minimum(bounds[:, 1], best + half)]
+                )
+        tails = 0.5 * (1 - level)
+        low = [_quantile(tried[:, i], weights, tails) for i in range(count)]
+        high = [_quantile(tried[:, i], weights, 1 - tails) for i in range(count)]
+        fitted = simulate(scene_at(best), outputs, times)
+    result = Calibration(
+        names,
+        best,
+        np.array(low),
+        np.array(high),
+        level,
+        float(deviation.min()) / max(1, len(wanted) - count),
+        len(points) + 1,
+        times,
+        series,
+        dict(zip(outputs, fitted.T)),
+        points[near],
+        tried[random.choice(len(tried), 400, p=weights)],
+    )
+    if html is not None:
+        write_page(html, result, scene._data.name, bounds)
+    return result
+
+
+def read_telemetry(path: str | os.PathLike) -> dict[str, np.ndarray]:
+    """Returns the columns of a `telemetry.csv` by name, without units; `time` in seconds."""
+    with open(path, encoding="utf-8") as file:
+        names = [word.partition(" [")[0] for word in file.readline().rstrip("\n").split(",")]
+        rows = [line.rstrip("\n").split(",") for line in file]
+    out = {}
+    for index, name in enumerate(names):
+        try:
+            out[name] = np.array([float(row[index]) for row in rows if len(row) == len(names)])
+        except ValueError:
+            continue  # words, such as the phase of a program
+    return out

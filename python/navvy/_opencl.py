@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""OpenCL drivers: finds the CPU runtime of PyPI, and says what to install where there is none."""
+from __future__ import annotations
+
+import glob
+import os
+import site
+import sysconfig
+
+# Variables by which users choose drivers themselves.
+_CHOICES = ("OCL_ICD_VENDORS", "OCL_ICD_FILENAMES", "OPENCL_VENDOR_PATH")
+_SYSTEM = "/etc/OpenCL/vendors/*.icd"
+
+
+def find_driver() -> None:
+    """Lets the OpenCL loader find the package intel-opencl-rt, which installs a CPU device without
+    root, where the system has no driver of its own. Call it before the loader starts.
+    """
+    if any(os.environ.get(name) for name in _CHOICES) or glob.glob(_SYSTEM):
+        return
+    for folder in (sysconfig.get_path("data"), site.USER_BASE):
+        file = os.path.join(folder or "", "lib", "libintelocl.so")
+        if folder and os.path.isfile(file):
+            os.environ["OCL_ICD_VENDORS"] = file
+            return
+
+
+def advice(text: str) -> str:
+    """Returns the message of a DeviceError; where no platform is installed, with the package of
+    PyPI that provides one.
+    """
+    if "no platform is installed" not in text:
+        return text
+    return text + "; without root: pip install 'navvy[cpu]' (Intel's runtime for processors)"
