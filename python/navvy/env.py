@@ -1,97 +1,183 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gymnasium environment of a dig: `gymnasium.make("Navvy/Dig-v0")` after `import navvy.env`."""
+"""Gymnasium environment of a dig, registered as "Navvy/Dig-v0" when this module is imported.
+
+    env = gymnasium.make("Navvy/Dig-v0")
+    envs = gymnasium.make_vec("Navvy/Dig-v0", num_envs=4)      # steps its members on threads
+"""
 from __future__ import annotations
 
+import concurrent.futures
+import os
+import threading
 from typing import Any
 
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from gymnasium.vector import AutoresetMode, VectorEnv
 
 from ._errors import SimulationError
 from ._scene import Scene
 from ._world import World
 
+_MACHINE = "excavator"
 _JOINTS = ("boom_joint", "arm_joint", "bucket_joint", "swing_joint")
+_SITE = os.path.join(os.path.dirname(__file__), "dig.sdf")
+#: Largest changes of a world's stance: forward and to the left [m], yaw [rad].
+_STANCE = np.array([0.5, 0.5, 0.1])
+#: Time in which a machine comes to rest before its world is a start [s].
+_SETTLE = 1.0
+
+
+def scene_of(number: int, vary: float) -> Scene:
+    """Returns the scene of a world. Number 0 is the scene file; others differ in cohesion (by the
+    share `vary` at most), friction angle (by half of that, up to 44 deg), stance and hills.
+    """
+    scene = Scene(_SITE)
+    if number == 0:
+        return scene
+    random = np.random.default_rng(number)
+    soil, stance = random.uniform(-1, 1, 2), _STANCE * random.uniform(-1, 1, 3)
+    cohesion, friction = 1 + vary * soil[0], 1 + 0.5 * vary * soil[1]
+    scene.update(
+        {
+            "soil.cohesion_pa": scene.soil.cohesion_pa * cohesion,
+            "soil.residual_cohesion_pa": scene.soil.residual_cohesion_pa * cohesion,
+            "soil.friction_angle_deg": min(44.0, scene.soil.friction_angle_deg * friction),
+            "machine.pose": (*stance[:2], 0, 0, 0, stance[2]),
+            "ground.hills.seed": number,
+            "ground.hills.height_m": 0.2 * random.uniform(0.25, 1),
+        }
+    )
+    return scene
+
+
+class Worlds:
+    """Worlds at their start, by number. Several environments may share them; each world is used by
+    one of them at a time.
+    """
+
+    def __init__(self, vary: float) -> None:
+        self._vary = vary
+        self._starts: dict[int, tuple[Scene, bytes]] = {}
+        self._free: dict[int, list[World]] = {}
+        self._lock = threading.Lock()
+
+    def take(self, number: int) -> World:
+        """Returns a world at its start; loads a snapshot, or builds the first one of its number."""
+        with self._lock:
+            free = self._free.setdefault(number, [])
+            world = free.pop() if free else None
+            if number not in self._starts:
+                scene = scene_of(number, self._vary)
+                world = World(scene)
+                world.step(round(_SETTLE / world.dt))
+                self._starts[number] = scene, world.save()
+            scene, start = self._starts[number]
+        world = world or World(scene)
+        world.load(start)
+        return world
+
+    def give(self, number: int, world: World) -> None:
+        """Takes a world back."""
+        with self._lock:
+            self._free[number].append(world)
+
+    def close(self) -> None:
+        """Closes all worlds that are not in use."""
+        with self._lock:
+            for free in self._free.values():
+                for world in free:
+                    world.close()
+                free.clear()
 
 
 class DigEnv(gymnasium.Env):
     """Fill the bucket of an excavator and lift it.
 
     Action, 4 numbers from -1 to 1: velocities of boom, arm, bucket and swing as shares of the
-    joints' limits, held for `1 / rate` seconds. Observation, 15 numbers: positions and velocities
+    joints' limits, held for `1 / rate` seconds. Observation, 16 numbers: positions and velocities
     of the four joints, place of the bucket's tip relative to its start [m], force on the bucket
-    [100 kN], and payload [t].
+    [100 kN], payload [t], and height of the tip over the ground under it [m].
 
-    Reward: 1 for each tonne of payload that was gained while the tip is above its start, less 0.01
-    per megajoule of work. An episode is `terminated` when the machine tips over or a step fails
-    (`info["failure"]`), and `truncated` after `duration` seconds. `reset(seed=...)` draws one of
-    `soils` soils, whose cohesion and friction lie within the share `vary` of the scene's, and loads
-    a snapshot of a machine that has come to rest. One world is kept for each soil that was drawn.
+    Reward: what the payload held above the tip's start has grown by [t] (soil counts when it is
+    lifted, and is lost when it falls), less 0.01 per megajoule of work.
+
+    `terminated`: the machine tipped over, was buried, or a step failed (`info["failure"]`); the
+    state has no future. `truncated`: `duration` seconds are over; the state has one. After either
+    the next call must be `reset`.
+
+    `reset(seed=...)` draws one of `worlds` worlds, which differ in soil, stance and hills, and
+    loads a snapshot of the machine at rest; `reset(options={"world": 3})` chooses one. A world is
+    built when it is drawn for the first time, in about half a second, and kept.
     """
 
     metadata = {"render_modes": []}
-    scene = "trench"
-    machine = "excavator"
 
     def __init__(
-        self, rate: float = 10, duration: float = 20, vary: float = 0.3, soils: int = 4
+        self,
+        rate: float = 10,
+        duration: float = 20,
+        vary: float = 0.3,
+        worlds: int = 8,
+        shared: Worlds | None = None,
     ) -> None:
-        if not rate > 0 or not duration > 0 or not 0 <= vary < 1 or soils < 1:
-            raise ValueError("rate and duration must be above 0, vary 0 to 1, soils 1 or more")
-        self._rate, self._duration, self._vary, self._soils = rate, duration, vary, soils
-        self._worlds: dict[int, tuple[World, bytes]] = {}
-        self._world: World | None = None
+        if not rate > 0 or not duration > 0 or not 0 <= vary < 1 or worlds < 1:
+            raise ValueError("rate and duration must be above 0, vary 0 to 1, worlds 1 or more")
+        self._rate, self._duration, self._count = rate, duration, worlds
+        self._worlds = shared or Worlds(vary)
+        self._owns = shared is None
+        self._number, self._world = 0, None
         self.action_space = spaces.Box(-1, 1, (4,), np.float32)
-        self.observation_space = spaces.Box(-1e4, 1e4, (15,), np.float64)
-
-    def _make(self, number: int) -> tuple[World, bytes]:
-        """Returns the world of a soil and its start, in which the bucket is near the ground."""
-        scene = Scene(self.scene)
-        draw = np.random.default_rng(number).uniform(1 - self._vary, 1 + self._vary, 2)
-        if number > 0:
-            scene.soil.cohesion_pa = float(scene.soil[0].cohesion_pa * draw[0])
-            scene.soil.friction_angle_deg = float(
-                min(scene.soil[0].friction_angle_deg * draw[1], 44)
-            )
-        world = World(scene)
-        world.step(int(1.0 / world.dt))
-        return world, world.save()
-
-    def _names(self, quantity: str) -> list[str]:
-        return ["%s/%s/%s" % (self.machine, joint, quantity) for joint in _JOINTS]
+        self.observation_space = spaces.Box(-1e4, 1e4, (16,), np.float64)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
         super().reset(seed=seed)
-        number = int(self.np_random.integers(self._soils))
-        if number not in self._worlds:
-            self._worlds[number] = self._make(number)
-        self._world, start = self._worlds[number]
-        self._world.load(start)
-        world = self._world
-        bucket = self.machine + "/bucket/"
-        self._outputs = [
-            world.output(name)
-            for name in self._names("position")
-            + self._names("velocity")
-            + [bucket + "tip_x", bucket + "tip_y", bucket + "tip_z"]
-            + [bucket + "force_x", bucket + "force_y", bucket + "force_z", bucket + "payload"]
-        ]
-        self._inputs = [world.input(name) for name in self._names("velocity")]
-        self._limits = np.array([world.inputs[i].high for i in self._inputs])
+        number = int(self.np_random.integers(self._count))
+        if options and "world" in options:
+            number = int(options["world"])
+        self._give()
+        self._number, self._world = number, self._worlds.take(number)
+        self._begin_episode(self._world)
+        return self._observation(), {"world": number}
+
+    def _give(self) -> None:
+        if self._world is not None:
+            self._worlds.give(self._number, self._world)
+            self._world = None
+
+    def _begin_episode(self, world: World) -> None:
+        bucket = _MACHINE + "/bucket/"
+        names = ["%s/%s/%s" % (_MACHINE, j, q) for q in ("position", "velocity") for j in _JOINTS]
+        names += [bucket + name for name in ("tip_x", "tip_y", "tip_z")]
+        names += [bucket + name for name in ("force_x", "force_y", "force_z", "payload")]
+        self._outputs = [world.output(name) for name in names]
+        self._inputs = [world.input("%s/%s/velocity" % (_MACHINE, joint)) for joint in _JOINTS]
+        channels = world.inputs
+        self._limits = np.array([channels[i].high for i in self._inputs])
+        self._grid = world.grid
         self._steps = max(1, round(1 / (self._rate * world.dt)))
         # Half an action early, as actions are whole steps.
         self._end = world.time + self._duration - 0.5 / self._rate
         self._values = np.empty(len(self._outputs))
-        self._begin = world.observe(self._values, self._outputs)[8:11].copy()
-        return self._observation(), {"soil": number}
+        self._held = 0.0
+        self._start = world.observe(self._values, self._outputs)[8:11].copy()
 
     def _observation(self) -> np.ndarray:
-        values = self._world.observe(self._values, self._outputs).copy()
-        values[8:11] -= self._begin
-        values[11:14] *= 1e-5
-        values[14] *= 1e-3
-        return values
+        values = self._world.observe(self._values, self._outputs)
+        tip = values[8:11].copy()
+        out = np.append(values, tip[2] - self._ground_at(tip[0], tip[1]))
+        out[8:11] -= self._start
+        out[11:14] *= 1e-5
+        out[14] *= 1e-3
+        return out
+
+    def _ground_at(self, x: float, y: float) -> float:
+        """Returns the height of the columns at a place; beyond the site that of its edge."""
+        columns, grid = self._world.columns, self._grid
+        ix = int((x - grid["origin"][0]) / grid["cell"])
+        iy = int((y - grid["origin"][1]) / grid["cell"])
+        return columns[min(max(iy, 0), grid["ny"] - 1), min(max(ix, 0), grid["nx"] - 1)]
 
     def step(self, action):
         world = self._world
@@ -100,7 +186,7 @@ class DigEnv(gymnasium.Env):
         action = np.asarray(action, dtype=np.float64)
         if action.shape != (4,) or not np.isfinite(action).all():
             raise ValueError("an action is 4 finite numbers from -1 to 1")
-        before, work = self._values[14] * 1e-3, world.energy
+        work = world.energy
         for index, value in zip(self._inputs, np.clip(action, -1, 1) * self._limits):
             world.set(index, value)
         info: dict[str, Any] = {}
@@ -110,15 +196,84 @@ class DigEnv(gymnasium.Env):
         except SimulationError as error:
             info["failure"], failed = str(error), True
         found = self._observation()
-        lifted = found[10] > 0
-        reward = (found[14] - before if lifted else 0.0) - 1e-8 * (world.energy - work)
-        fallen = world.phase(self.machine) in ("tipped", "buried")
+        held = found[14] if found[10] > 0 else 0.0
+        reward = held - self._held - 1e-8 * (world.energy - work)
+        self._held = held
+        fallen = world.phase(_MACHINE) in ("tipped", "buried")
         return found, float(reward), failed or fallen, world.time >= self._end, info
 
     def close(self) -> None:
-        for world, _ in self._worlds.values():
-            world.close()
-        self._worlds, self._world = {}, None
+        self._give()
+        if self._owns:
+            self._worlds.close()
 
 
-gymnasium.register(id="Navvy/Dig-v0", entry_point="navvy.env:DigEnv")
+class DigVectorEnv(VectorEnv):
+    """Several DigEnv whose members step at the same time, on `workers` threads (one per processor
+    with 0). The results do not depend on their number. Members share their worlds: at most one per
+    member is in use.
+
+    A member that ended is reset by the next step (`AutoresetMode.NEXT_STEP`): its action is
+    ignored, its reward is 0 and its observation is the first of the new episode.
+    """
+
+    metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
+
+    def __init__(self, num_envs: int = 1, workers: int = 0, vary: float = 0.3, **settings) -> None:
+        shared = Worlds(vary)
+        self._shared = shared
+        self._envs = [DigEnv(vary=vary, shared=shared, **settings) for _ in range(num_envs)]
+        self._pool = concurrent.futures.ThreadPoolExecutor(workers or os.cpu_count() or 1)
+        self._ended = [False] * num_envs
+        self.num_envs = num_envs
+        self.single_action_space = self._envs[0].action_space
+        self.single_observation_space = self._envs[0].observation_space
+        batch = gymnasium.vector.utils.batch_space
+        self.action_space = batch(self.single_action_space, num_envs)
+        self.observation_space = batch(self.single_observation_space, num_envs)
+
+    def _infos(self, infos) -> dict[str, Any]:
+        out: dict[str, Any] = {}
+        for index, info in enumerate(infos):
+            out = self._add_info(out, info, index)
+        return out
+
+    def reset(self, *, seed=None, options: dict[str, Any] | None = None):
+        if seed is None or isinstance(seed, int):
+            seed = [None if seed is None else seed + i for i in range(self.num_envs)]
+        pairs = zip(self._envs, seed)
+        found = list(self._pool.map(lambda one: one[0].reset(seed=one[1], options=options), pairs))
+        self._ended = [False] * self.num_envs
+        return np.stack([one for one, _ in found]), self._infos(info for _, info in found)
+
+    @staticmethod
+    def _advance(env: DigEnv, ended: bool, action):
+        if not ended:
+            return env.step(action)
+        observation, info = env.reset()
+        return observation, 0.0, False, False, info
+
+    def step(self, actions):
+        found = list(self._pool.map(self._advance, self._envs, self._ended, actions))
+        observations, rewards, terminated, truncated, infos = zip(*found)
+        self._ended = [a or b for a, b in zip(terminated, truncated)]
+        return (
+            np.stack(observations),
+            np.array(rewards),
+            np.array(terminated),
+            np.array(truncated),
+            self._infos(infos),
+        )
+
+    def close_extras(self, **settings) -> None:
+        for env in self._envs:
+            env.close()
+        self._shared.close()
+        self._pool.shutdown()
+
+
+gymnasium.register(
+    id="Navvy/Dig-v0",
+    entry_point="navvy.env:DigEnv",
+    vector_entry_point="navvy.env:DigVectorEnv",
+)
