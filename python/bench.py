@@ -3,12 +3,15 @@
 
     python3 python/bench.py [seconds of simulated time before the digging world is measured]
 """
+import os
 import sys
 import time
 
 import numpy as np
 
-import navvy
+# The sources of the package stand beside this file; the installed one has the extension.
+sys.path.pop(0)
+import navvy  # noqa: E402
 
 
 def best(call, count=1, rounds=7):
@@ -43,7 +46,9 @@ def main(until):
         world.step(50)
     print("| digging: time, particles | %.1f s, %d | |" % (world.time, world.particle_count))
     dig(world)
+    memory(world)
     rollouts(world)
+    environments()
 
 
 def dig(world):
@@ -84,6 +89,56 @@ def rollouts(world, members=8, rows=10, steps=10):
             % (workers, members * rows * steps / seconds),
             flush=True,
         )
+
+
+def resident():
+    """Returns the resident memory of the process [bytes]."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def memory(world, count=64):
+    """Prints what copies of a world take."""
+    before = resident()
+    copies = world.fork(count)
+    # Memory that is never written does not count, so each takes a step.
+    for one in copies:
+        one.step()
+    print(
+        "| %d more worlds | %.2f GiB, the process %.2f GiB | 2 GiB |"
+        % (count, (resident() - before) / 2**30, resident() / 2**30),
+        flush=True,
+    )
+    for one in copies:
+        one.close()
+
+
+def environments():
+    """Prints steps per second of environments, in the air and in soil."""
+    import gymnasium
+
+    import navvy.env  # noqa: F401  registers the environment
+
+    down, pull = (-0.5, 0, 0, 0), (-0.1, -0.6, -0.1, 0)
+    for count in (1, 2, 4):
+        envs = gymnasium.make_vec("Navvy/Dig-v0", num_envs=count, worlds=1)
+        rates = []
+        for before, action, steps in ((0, (0.1, 0, 0, 0), 20), (9, pull, 20)):
+            envs.reset(seed=0)
+            for _ in range(before):
+                envs.step(np.tile(np.float32(down), (count, 1)))
+            start = time.perf_counter()
+            for _ in range(steps):
+                envs.step(np.tile(np.float32(action), (count, 1)))
+            rates.append(count * steps / (time.perf_counter() - start))
+        resets = best(lambda: envs.reset(seed=0), rounds=3) / count
+        print(
+            "| %d environments: steps of 0.1 s per second, in the air, in soil | %.0f, %.0f | |"
+            % (count, *rates),
+            flush=True,
+        )
+        row("reset of one of them", resets, "5 ms")
+        envs.close()
 
 
 if __name__ == "__main__":
