@@ -292,6 +292,7 @@ TEST_F(ScanTest, FoldsDistancesOfATimeOfFlightCameraAndMixesAtEdges) {
 /// Returns the faults as texts.
 std::vector<std::string> texts(const std::vector<Fault>& faults) {
   std::vector<std::string> out;
+  out.reserve(faults.size());
   for (const Fault& fault : faults) out.push_back(fault.text());
   return out;
 }
