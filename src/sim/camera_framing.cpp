@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "heightfield/terrain_view.h"
+#include "scene/forward_kinematics.h"
 #include "sim/occupied_areas.h"
 #include "sim/start_placing.h"
 #include "sim/world_terrain.h"
@@ -99,9 +100,9 @@ void CameraFraming::add_start(bool bodies, std::vector<Vec3>& out) const {
     if (!bodies && !is_machine(scene.machines[m])) continue;
     if (machine.links.empty()) continue;
     const std::size_t before = out.size();
-    const Pose X_WM = X_WB[m] * machine.links[0].X_ML.inverse();
+    const std::vector<Pose> X_WL = scene::forward_kinematics(machine, X_WB[m], {});
     for (const Part& part : parts_[m])
-      add_corners(X_WM * machine.links[static_cast<std::size_t>(part.link)].X_ML, part.box, out);
+      add_corners(X_WL[static_cast<std::size_t>(part.link)], part.box, out);
     Vec2 low = Vec2::Constant(1e30), high = -low;
     for (std::size_t i = before; i < out.size(); ++i) {
       low = low.cwiseMin(out[i].head<2>());

@@ -15,6 +15,7 @@
 #include "scene_io/loader.h"
 #include "sim/frame_builder.h"
 #include "sim/occupied_areas.h"
+#include "vehicle/collision_box.h"
 
 namespace navvy::run {
 namespace {
@@ -31,24 +32,34 @@ std::vector<std::string> shipped_scenes() {
   return out;
 }
 
+/// Returns the corners of the boxes around a machine's collision shapes, in W [m].
+std::vector<Vec3> corners_of(const sim::World& world, std::size_t machine) {
+  const sim::MachineHandle handle = world.machines().at(static_cast<int>(machine));
+  std::vector<Vec3> out;
+  for (std::size_t l = 0; l < handle.description().links.size(); ++l)
+    for (const scene::Collision& shape : handle.description().links[l].collisions)
+      if (const auto box = vehicle::box_of(shape))
+        for (int i = 0; i < 8; ++i)
+          out.push_back(handle.link(static_cast<int>(l)).pose() * box->X_WO *
+                        box->half.cwiseProduct(Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
+                                                    (i & 4) != 0 ? 1 : -1)));
+  return out;
+}
+
 /// Returns the share of the picture's width that a machine takes, 0 if a part of it is outside.
 double share_of_width(const sim::World& world, std::size_t machine,
                       const scene::FrameCamera& camera) {
-  std::vector<char> included(world.description().machines.size(), 0);
-  included.at(machine) = 1;
   double left = 2, right = -2;
-  for (const heightfield::OccupiedArea& area : sim::occupied_areas(world, included))
-    for (const Vec2& corner : area.outline)
-      for (const double z : {area.low, area.high}) {
-        const Vec3 p = camera.X_WC.inverse() * Vec3(corner.x(), corner.y(), z);
-        const double tan_x = std::tan(0.5 * camera.fov);
-        const double x = p.x() / -p.z() / tan_x,
-                     y = p.y() / -p.z() / (tan_x * camera.height / camera.width);
-        if (p.z() >= 0 || std::abs(x) > 1 || std::abs(y) > 1) return 0;
-        left = std::min(left, x);
-        right = std::max(right, x);
-      }
-  return 0.5 * (right - left);
+  for (const Vec3& corner : corners_of(world, machine)) {
+    const Vec3 p = camera.X_WC.inverse() * corner;
+    const double tan_x = std::tan(0.5 * camera.fov);
+    const double x = p.x() / -p.z() / tan_x,
+                 y = p.y() / -p.z() / (tan_x * camera.height / camera.width);
+    if (p.z() >= 0 || std::abs(x) > 1 || std::abs(y) > 1) return 0;
+    left = std::min(left, x);
+    right = std::max(right, x);
+  }
+  return std::max(0.0, 0.5 * (right - left));
 }
 
 /// Expects that a fixed or following camera shows every machine, in scenes of the paper on a
