@@ -7,6 +7,15 @@
 
 namespace navvy::geometry {
 
+std::array<Vec3, 8> corners(const OrientedBox& box) {
+  std::array<Vec3, 8> out;
+  for (unsigned i = 0; i < out.size(); ++i) {
+    const Vec3 side((i & 1u) != 0 ? 1 : -1, (i & 2u) != 0 ? 1 : -1, (i & 4u) != 0 ? 1 : -1);
+    out[i] = box.X_WO * box.half.cwiseProduct(side);
+  }
+  return out;
+}
+
 double penetration(const OrientedBox& a, const OrientedBox& b) {
   const Vec3 between = b.X_WO.translation() - a.X_WO.translation();
   // Half of the extent of a box along a direction.

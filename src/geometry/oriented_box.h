@@ -2,6 +2,8 @@
 // Oriented boxes and the depth to which two of them overlap.
 #pragma once
 
+#include <array>
+
 #include "core/math.h"
 
 namespace navvy::geometry {
@@ -11,6 +13,10 @@ struct OrientedBox {
   Pose X_WO = Pose::Identity();  ///< pose of the box in W
   Vec3 half = Vec3::Zero();      ///< half of the edge lengths [m]
 };
+
+/// Returns the corners of a box in W [m]. Corner i is on the positive side of axis k if bit k of i
+/// is set.
+std::array<Vec3, 8> corners(const OrientedBox& box);
 
 /// Returns the shortest distance by which one box must be moved so that the boxes only touch [m]:
 /// the minimum over the fifteen candidate separating axes. If the result is negative or zero, the

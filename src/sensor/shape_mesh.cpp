@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/oriented_box.h"
 #include "scene/scaled_mesh.h"
 
 namespace navvy::sensor {
@@ -55,10 +56,8 @@ void add_hemisphere(double radius, double middle, int top, int rings, std::vecto
 
 TriangleMesh box(const Vec3& size) {
   TriangleMesh out;
-  for (int i = 0; i < 8; ++i)
-    out.vertices.push_back(0.5 *
-                           size.cwiseProduct(Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
-                                                  (i & 4) != 0 ? 1 : -1)));
+  for (const Vec3& corner : geometry::corners({Pose::Identity(), 0.5 * size}))
+    out.vertices.push_back(corner);
   for (const auto& [a, b, c, d] :
        {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
         std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {

@@ -22,10 +22,7 @@ constexpr double kUsed = 0.9;
 constexpr double kHeadroom = 1;
 
 void add_corners(const Pose& X_WL, const geometry::OrientedBox& box, std::vector<Vec3>& out) {
-  for (int i = 0; i < 8; ++i)
-    out.push_back(X_WL * box.X_WO *
-                  box.half.cwiseProduct(
-                      Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1)));
+  for (const Vec3& corner : geometry::corners({X_WL * box.X_WO, box.half})) out.push_back(corner);
 }
 
 /// Adds the places of a machine's program, with half the machine's width around them.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "sim/camera_framing.h"
 #include "sim/cylinder_shapes.h"
 #include "sim/particle_clipper.h"
 #include "sim/world_parts.h"
@@ -52,7 +53,7 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 }  // namespace
 
 FrameBuilder::FrameBuilder(const World& world, const std::string& show)
-    : world_(world), framing_(world), plates_(std::make_unique<ParticleClipper>(world)) {
+    : world_(world), plates_(std::make_unique<ParticleClipper>(world)) {
   // Fill in constants once.
   for (const scene::Soil& soil : world.description().soils) {
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
@@ -243,7 +244,7 @@ double FrameBuilder::shade_of(const soil::Particle& particle) const {
 }
 
 // Fixed, on a link, or following a machine's heading.
-scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
+scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) {
   scene::FrameCamera out;
   out.fov = camera.fov;
   out.width = camera.width;
@@ -269,7 +270,8 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
     }
   }
   out.X_WC = look_at(X * camera.position, X * camera.target);
-  frame_points(framing_.points(camera), out);
+  if (!framing_) framing_ = std::make_unique<const CameraFraming>(world_);
+  frame_points(framing_->points(camera), out);
   // Keep the camera above the ground.
   const Vec3 eye = out.X_WC.translation();
   const double floor = terrain_view(world_, kDrawn).sample(eye.x(), eye.y()) + 0.3;

@@ -10,7 +10,6 @@
 #include "heightfield/change_follower.h"
 #include "scene/frame.h"
 #include "scene/overlay.h"
-#include "sim/camera_framing.h"
 #include "sim/world.h"
 
 namespace navvy::soil {
@@ -19,6 +18,7 @@ struct Particle;
 
 namespace navvy::sim {
 
+class CameraFraming;
 class ParticleClipper;
 
 /// Builds frames to draw of one world. Keeps the ground data between calls and rewrites only the
@@ -42,7 +42,7 @@ class FrameBuilder {
   /// machine's position and heading, but not its pitch and roll. A camera that frames something
   /// moves along its direction until that fills the picture.
   /// @throws InputError if the camera's machine does not exist.
-  scene::FrameCamera camera(const scene::Camera& camera) const;
+  scene::FrameCamera camera(const scene::Camera& camera);
 
  private:
   /// Moves the window when the machines approach its edge. After a move, the next frame contains
@@ -76,8 +76,9 @@ class FrameBuilder {
   heightfield::ChangeFollower changes_;
   /// The same for the surface with the active soil that rests on it.
   heightfield::ChangeFollower loose_changes_;
-  /// Finds what the scene's cameras frame.
-  CameraFraming framing_;
+  /// Finds what the scene's cameras frame. Made at the first call of `camera`: sensors never call
+  /// it.
+  std::unique_ptr<const CameraFraming> framing_;
   /// Moves drawn particles away from the plates of tools.
   std::unique_ptr<ParticleClipper> plates_;
 };

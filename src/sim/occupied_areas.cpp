@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/occupied_areas.h"
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -16,12 +17,8 @@ using heightfield::OccupiedArea;
 
 // Eight corners in W; the outline is their convex hull as seen from above.
 OccupiedArea area_of(const Pose& X_WL, const geometry::OrientedBox& box, bool machine) {
-  std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back(X_WL * box.X_WO *
-                      box.half.cwiseProduct(Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
-                                                 (i & 4) != 0 ? 1 : -1)));
-  return heightfield::area_around(corners, machine);
+  const std::array<Vec3, 8> corners = geometry::corners({X_WL * box.X_WO, box.half});
+  return heightfield::area_around({corners.begin(), corners.end()}, machine);
 }
 
 /// Adds the areas of one machine. `pose` returns X_WL for the index of a link.

@@ -79,10 +79,6 @@ Fault error(const scene::Scene& scene, const scene::MachineInWorld& machine,
           remedy};
 }
 
-}  // namespace
-
-namespace {
-
 /// Returns true for a machine without joints that is fixed to the world.
 bool stands_still(const scene::Machine& machine) {
   return machine.fixed_base &&

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "control/step_kinds.h"
-#include "paths.h"
 #include "run/simulation.h"
 #include "scene_io/loader.h"
+#include "scene_io/shipped.h"
 #include "sim/frame_builder.h"
 #include "sim/occupied_areas.h"
 #include "vehicle/collision_box.h"
@@ -20,15 +19,10 @@
 namespace navvy::run {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::vector<std::string> shipped_scenes() {
-  const fs::path root = fs::path(source_dir()) / "scenarios";
+/// Returns the names of the shipped scenes, such as "paper/tracks".
+std::vector<std::string> names() {
   std::vector<std::string> out;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".sdf")
-      out.push_back(fs::relative(entry.path(), root).generic_string());
-  std::sort(out.begin(), out.end());
+  for (const auto& [name, file] : scene_io::shipped_scenes()) out.push_back(name);
   return out;
 }
 
@@ -39,10 +33,8 @@ std::vector<Vec3> corners_of(const sim::World& world, std::size_t machine) {
   for (std::size_t l = 0; l < handle.description().links.size(); ++l)
     for (const scene::Collision& shape : handle.description().links[l].collisions)
       if (const auto box = vehicle::box_of(shape))
-        for (int i = 0; i < 8; ++i)
-          out.push_back(handle.link(static_cast<int>(l)).pose() * box->X_WO *
-                        box->half.cwiseProduct(Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
-                                                    (i & 4) != 0 ? 1 : -1)));
+        for (const Vec3& corner : geometry::corners(*box))
+          out.push_back(handle.link(static_cast<int>(l)).pose() * corner);
   return out;
 }
 
@@ -64,9 +56,9 @@ double share_of_width(const sim::World& world, std::size_t machine,
 
 /// Expects that a fixed or following camera shows every machine, in scenes of the paper on a
 /// quarter of the picture's width.
-void expect_shown(const Simulation& simulation, const std::string& file) {
+void expect_shown(const Simulation& simulation, const std::string& name) {
   const sim::World& world = simulation.world();
-  const sim::FrameBuilder frames(world);
+  sim::FrameBuilder frames(world);
   const scene::Scene& scene = world.description();
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
     if (!sim::is_machine(scene.machines[m])) continue;
@@ -74,16 +66,15 @@ void expect_shown(const Simulation& simulation, const std::string& file) {
     for (const scene::Camera& camera : scene.cameras)
       if (camera.kind != scene::Camera::Kind::kOnLink)
         most = std::max(most, share_of_width(world, m, frames.camera(camera)));
-    EXPECT_GT(most, file.rfind("paper/", 0) == 0 ? 0.25 : 0.02)
-        << file << " at " << world.time() << " s: " << scene.machines[m].name;
+    EXPECT_GT(most, name.rfind("paper/", 0) == 0 ? 0.25 : 0.02)
+        << name << " at " << world.time() << " s: " << scene.machines[m].name;
   }
 }
 
-scene::Scene load(const std::string& file) {
+scene::Scene load(const std::string& name) {
   scene_io::Overrides overrides;
   overrides.render = false;
-  return scene_io::load_scene(source_dir() + "/scenarios/" + file, control::step_kinds(),
-                              overrides);
+  return scene_io::load_scene(scene_io::find_scene(name), control::step_kinds(), overrides);
 }
 
 class ShippedCameras : public testing::TestWithParam<std::string> {};
@@ -95,9 +86,9 @@ TEST_P(ShippedCameras, ShowEveryMachineInTheFirstSecond) {
   expect_shown(simulation, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedCameras, testing::ValuesIn(shipped_scenes()),
+INSTANTIATE_TEST_SUITE_P(All, ShippedCameras, testing::ValuesIn(names()),
                          [](const testing::TestParamInfo<std::string>& test) {
-                           std::string name = fs::path(test.param).replace_extension().string();
+                           std::string name = test.param;
                            std::replace_if(
                                name.begin(), name.end(),
                                [](unsigned char c) { return !std::isalnum(c); }, '_');
@@ -105,10 +96,10 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedCameras, testing::ValuesIn(shipped_scenes()
                          });
 
 TEST(ShippedCamera, ShowsTheRobotOverTheWholeRun) {
-  Simulation simulation(load("paper/diff_kinematic.sdf"));
+  Simulation simulation(load("paper/diff_kinematic"));
   while (!simulation.done()) {
     simulation.step(200);
-    expect_shown(simulation, "paper/diff_kinematic.sdf");
+    expect_shown(simulation, "paper/diff_kinematic");
   }
 }
 

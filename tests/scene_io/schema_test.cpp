@@ -10,6 +10,7 @@
 
 #include "control/step_kinds.h"
 #include "paths.h"
+#include "scene/overlay.h"
 #include "scene_io/sdf_rules.h"
 #include "text_of.h"
 
@@ -71,6 +72,15 @@ TEST(Schema, PrintsPartsAsTextAndJson) {
             std::string::npos)
       << json;
   EXPECT_EQ(all.find("no such element"), nullptr);
+}
+
+TEST(Schema, NamesEveryOverlay) {
+  std::string text;
+  visit(Schema(control::step_kinds()).root(), [&](const SchemaNode& node) {
+    if (node.name == "navvy:show") text = node.text;
+  });
+  for (const scene::OverlayInfo& one : scene::overlays())
+    EXPECT_NE(text.find(one.name), std::string::npos) << one.name;
 }
 
 TEST(Schema, TheReferencePageIsUpToDate) {
