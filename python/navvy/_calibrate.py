@@ -34,7 +34,7 @@ SOIL = {"soil.friction_angle_deg": (20.0, 42.0), "soil.cohesion_pa": (500.0, 100
 class Calibration:
     """Result of `calibrate`."""
 
-    names: list[str]  #: settings of the scene that were fitted
+    names: list[str]  #: settings of the scene that were fitted; each ends in its unit
     best: np.ndarray  #: mean of the likelihood, one value per name
     low: np.ndarray  #: lower end of each interval
     high: np.ndarray  #: upper end
@@ -42,9 +42,9 @@ class Calibration:
     misfit: float  #: squared deviation of the best fit per free window; about 1 for a good fit
     runs: int  #: number of simulated scenes
     times: np.ndarray  #: time of each sample [s]
-    measured: dict[str, np.ndarray]  #: measured series, by output
+    measured: dict[str, np.ndarray]  #: measured series by output, in the unit of the output
     fitted: dict[str, np.ndarray]  #: the same outputs of the scene with the best values
-    points: np.ndarray  #: parameters of the scenes of the last round, shape (runs, names)
+    points: np.ndarray  #: parameters of the scenes inside the last box, shape (n, names)
     likely: np.ndarray  #: parameters drawn by their likelihood, shape (n, names)
 
     def __str__(self) -> str:
@@ -56,15 +56,15 @@ class Calibration:
 
 
 def settings_of(scene: Scene, names: Sequence[str], values: Sequence[float]) -> dict[str, float]:
-    """Returns the settings that give a scene these values. Cohesion takes that of remoulded soil
-    with it, in the ratio of the scene, as the schema wants it to be the smaller one.
+    """Returns the settings that give a scene these values. Cohesion of all soils takes that of
+    remoulded soil with it, in the ratio of the first soil, as the schema wants it to be the smaller
+    one; unless that is among the names, too.
     """
     out = {name: float(value) for name, value in zip(names, values)}
-    for name in names:
-        if name.startswith("soil") and name.endswith(".cohesion_pa"):
-            soil = scene.soil[0]
-            ratio = soil.residual_cohesion_pa / soil.cohesion_pa if soil.cohesion_pa > 0 else 0.0
-            out[name.replace("cohesion_pa", "residual_cohesion_pa")] = ratio * out[name]
+    if "soil.cohesion_pa" in out:
+        soil = scene.soil[0]
+        ratio = soil.residual_cohesion_pa / soil.cohesion_pa if soil.cohesion_pa > 0 else 0.0
+        out.setdefault("soil.residual_cohesion_pa", ratio * out["soil.cohesion_pa"])
     return out
 
 
@@ -79,8 +79,9 @@ def simulate(scene: Scene, outputs: Sequence[str], times: np.ndarray) -> np.ndar
     return rows
 
 
-def _simulate(task: tuple) -> np.ndarray:
-    return simulate(*task)
+def _one_thread() -> None:
+    """Keeps PoCL from starting as many threads in each process as there are processes."""
+    os.environ.setdefault("POCL_MAX_PTHREAD_COUNT", "1")
 
 
 @contextlib.contextmanager
@@ -89,12 +90,12 @@ def _pool(workers: int):
     of one process do.
     """
     if workers == 1:
-        yield lambda tasks: [simulate(*task) for task in tasks]
+        yield lambda tasks: list(map(simulate, *zip(*tasks)))
         return
     # OpenCL does not survive a fork.
     spawn = multiprocessing.get_context("spawn")
-    with concurrent.futures.ProcessPoolExecutor(workers, spawn) as pool:
-        yield lambda tasks: list(pool.map(_simulate, tasks))
+    with concurrent.futures.ProcessPoolExecutor(workers, spawn, _one_thread) as pool:
+        yield lambda tasks: list(pool.map(simulate, *zip(*tasks)))
 
 
 def _windows(rows: np.ndarray, count: int) -> np.ndarray:
@@ -130,20 +131,21 @@ class _Surface:
         squares = [x[:, i] * x[:, j] for i in range(count) for j in range(i, count)]
         return np.column_stack([np.ones(len(x)), x, *squares])
 
-    def deviation(self, points: np.ndarray, wanted: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    def deviation(self, points: np.ndarray, wanted: np.ndarray, noise: np.ndarray):
         """Returns the squared deviation of each point's windows from the measured ones, in units of
-        the scatter, to which the variance of the measurement is added.
+        the scatter, to which the variance of the measurement is added; and the factor by which
+        the variance is larger at each point, as the surfaces are uncertain themselves.
         """
         terms = self._terms(points)
         left = wanted - terms @ self._weights
         spread = 1 + np.einsum("ij,jk,ik->i", terms, self._inverse, terms)
         inverse = np.linalg.inv(self._scatter + np.diag(noise))
-        return np.einsum("ij,jk,ik->i", left, inverse, left) / spread
+        return np.einsum("ij,jk,ik->i", left, inverse, left) / spread, spread
 
 
-def _weigh(deviation: np.ndarray, free: int, count: int) -> np.ndarray:
+def _weigh(deviation: np.ndarray, spread: np.ndarray, free: int, count: int) -> np.ndarray:
     """Returns the likelihood of each point, with the sum 1."""
-    logs = -0.5 * (free + count) * np.log1p(deviation / free)
+    logs = -0.5 * ((free + count) * np.log1p(deviation / free) + count * np.log(spread))
     weights = np.exp(logs - logs.max())
     return weights / weights.sum()
 
@@ -177,6 +179,9 @@ def calibrate(
     scenes, in as many processes as `workers` (one per processor with 0, in this process with 1); a
     script that calls it needs the usual `if __name__ == "__main__":`. `html` names a page that
     shows the result.
+
+    Raises ValueError for series, boxes or counts that do not fit, InputError for an unknown output
+    or a value that the schema refuses, SimulationError if one of the scenes fails.
     """
     scene = scene.copy() if isinstance(scene, Scene) else Scene(scene)
     times = np.asarray(times, dtype=float)
@@ -196,6 +201,8 @@ def calibrate(
     largest = np.array([np.abs(values).max() for values in series.values()])
     variance = np.tile(np.square(noise * largest), windows)
     bounds = np.array([parameters[name] for name in names], dtype=float)
+    if (bounds[:, 0] >= bounds[:, 1]).any():
+        raise ValueError("a box must have its lower value first")
     box, points, found = bounds, np.empty((0, count)), np.empty((0, len(wanted)))
 
     def scene_at(point):
@@ -213,8 +220,8 @@ def calibrate(
             near = ((points >= box[:, 0]) & (points <= box[:, 1])).all(axis=1)
             surface = _Surface(points[near], found[near], box)
             tried = _spread(40000, box, random)
-            deviation = surface.deviation(tried, wanted, variance)
-            weights = _weigh(deviation, surface.free, len(wanted))
+            deviation, factor = surface.deviation(tried, wanted, variance)
+            weights = _weigh(deviation, factor, surface.free, len(wanted))
             best = weights @ tried
             spread = np.sqrt(weights @ np.square(tried - best))
             if turn + 1 < rounds:
@@ -244,17 +251,3 @@ def calibrate(
     if html is not None:
         write_page(html, result, scene._data.name, bounds)
     return result
-
-
-def read_telemetry(path: str | os.PathLike) -> dict[str, np.ndarray]:
-    """Returns the columns of a `telemetry.csv` by name, without units; `time` in seconds."""
-    with open(path, encoding="utf-8") as file:
-        names = [word.partition(" [")[0] for word in file.readline().rstrip("\n").split(",")]
-        rows = [line.rstrip("\n").split(",") for line in file]
-    out = {}
-    for index, name in enumerate(names):
-        try:
-            out[name] = np.array([float(row[index]) for row in rows if len(row) == len(names)])
-        except ValueError:
-            continue  # words, such as the phase of a program
-    return out

@@ -31,4 +31,5 @@ def advice(text: str) -> str:
     """
     if "no platform is installed" not in text:
         return text
-    return text + "; without root: pip install 'navvy[cpu]' (Intel's runtime for processors)"
+    packages = "intel-opencl-rt intel-cmplr-lib-rt"
+    return text + "; without root: pip install %s (Intel's runtime for processors)" % packages

@@ -103,7 +103,7 @@ def _spread(result: Calibration) -> str:
             out.append("<h2>%s</h2>%s" % (html.escape(title), plot.text()))
     if not out:
         return ""
-    legend = "Grey: simulated scenes of the last round. Blue: values drawn by their likelihood."
+    legend = "Grey: simulated scenes in the last box. Blue: values drawn by their likelihood."
     return "".join(out) + "<p>%s Red: fitted values.</p>" % legend
 
 

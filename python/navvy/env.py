@@ -46,7 +46,7 @@ def scene_of(number: int, vary: float) -> Scene:
             "soil.friction_angle_deg": min(44.0, scene.soil.friction_angle_deg * friction),
             "machine.pose": (*stance[:2], 0, 0, 0, stance[2]),
             "ground.hills.seed": number,
-            "ground.hills.height_m": 0.2 * random.uniform(0.25, 1),
+            "ground.hills.height_m": scene.ground.hills.height_m * random.uniform(0.25, 1),
         }
     )
     return scene
@@ -96,9 +96,13 @@ class DigEnv(gymnasium.Env):
     """Fill the bucket of an excavator and lift it.
 
     Action, 4 numbers from -1 to 1: velocities of boom, arm, bucket and swing as shares of the
-    joints' limits, held for `1 / rate` seconds. Observation, 16 numbers: positions and velocities
-    of the four joints, place of the bucket's tip relative to its start [m], force on the bucket
-    [100 kN], payload [t], and height of the tip over the ground under it [m].
+    joints' limits, held for `1 / rate` seconds. Observation, 16 numbers: positions [rad] and
+    velocities [rad/s] of the joints in this order, place of the bucket's tip relative to its start
+    [m] and force of the soil on the bucket [100 kN], both in axes of the world, payload [t], and
+    height of the tip over the columns under it, without loose soil [m].
+
+    `rate` is in actions per second, `duration` in seconds. Worlds differ in strength by at most the
+    share `vary`. `shared` are worlds that several environments use.
 
     Reward: what the payload held above the tip's start has grown by [t] (soil counts when it is
     lifted, and is lost when it falls), less 0.01 per megajoule of work.
@@ -211,7 +215,7 @@ class DigEnv(gymnasium.Env):
 class DigVectorEnv(VectorEnv):
     """Several DigEnv whose members step at the same time, on `workers` threads (one per processor
     with 0). The results do not depend on their number. Members share their worlds: at most one per
-    member is in use.
+    member is in use. `settings` are those of DigEnv.
 
     A member that ended is reset by the next step (`AutoresetMode.NEXT_STEP`): its action is
     ignored, its reward is 0 and its observation is the first of the new episode.

@@ -53,8 +53,8 @@ class Fit(unittest.TestCase):
             found = self.fit(*truth, seed=trial)
             inside += [(found.low <= truth) & (truth <= found.high)]
             errors += [np.abs(found.best - truth) / (1, truth[1])]
-        # 95 % intervals miss one in twenty on average; four misses of twenty have a chance of 2 %.
-        self.assertTrue((np.sum(inside, axis=0) >= 17).all(), np.sum(inside, axis=0))
+        # 95 % intervals miss one in twenty on average; wanted are at most two of twenty.
+        self.assertTrue((np.sum(inside, axis=0) >= 18).all(), np.sum(inside, axis=0))
         self.assertLess(np.median(errors, axis=0)[0], 2)
         self.assertLess(np.median(errors, axis=0)[1], 0.15)
 
@@ -83,6 +83,9 @@ class Fit(unittest.TestCase):
                 navvy.calibrate(SCENE, times, {"bucket/bucket/force_x": values})
         with self.assertRaisesRegex(ValueError, "samples"):
             navvy.calibrate(SCENE, TIMES, {"bucket/bucket/force_x": good}, samples=5)
+        box = {"soil.friction_angle_deg": (40.0, 40.0)}
+        with self.assertRaisesRegex(ValueError, "lower value first"):
+            navvy.calibrate(SCENE, TIMES, {"bucket/bucket/force_x": good}, parameters=box)
 
 
 class Simulation(unittest.TestCase):
@@ -94,14 +97,6 @@ class Simulation(unittest.TestCase):
         self.assertEqual(rows.shape, (3, 2))
         self.assertLess(rows[2, 0], rows[0, 0])
         self.assertAlmostEqual(rows[2, 1], -1.0, delta=0.05)
-
-    def test_telemetry_is_read_by_name(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "telemetry.csv"
-            path.write_text("time [s],a/b [N],phase\n0,1.5,dig\n0.1,2.5,lift\n")
-            columns = _calibrate.read_telemetry(path)
-        self.assertEqual(list(columns), ["time", "a/b"])
-        np.testing.assert_array_equal(columns["a/b"], [1.5, 2.5])
 
 
 if __name__ == "__main__":
