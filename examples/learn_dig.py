@@ -10,6 +10,7 @@ the best ones. In the end the best table is compared with random actions in worl
 seen.
 """
 import argparse
+import os
 import time
 
 import gymnasium
@@ -55,7 +56,8 @@ def main():
     options = parser.parse_args()
     random = np.random.default_rng(options.seed)
     settings = {"duration": DURATION + 1, "rate": RATE, "workers": options.workers}
-    envs = gymnasium.make_vec("Navvy/Dig-v0", num_envs=2, **settings)
+    count = options.workers or os.cpu_count() or 1
+    envs = gymnasium.make_vec("Navvy/Dig-v0", num_envs=count, **settings)
     # The swing is left out at the start: a scoop is in the plane of the arm.
     mean, spread = np.zeros((KNOTS, JOINTS)), np.full((KNOTS, JOINTS), 0.5) * [1, 1, 1, 0.1]
     tables, scores = np.empty((0, KNOTS, JOINTS)), np.empty(0)

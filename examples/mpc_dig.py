@@ -171,8 +171,8 @@ def score(found: Cycle, operator: Cycle) -> float:
 
 
 def search(models, state, path, operator, rounds, tries, random):
-    """Returns the best path and its trial; None for the operator's own. `models` are worlds to try
-    paths in, one per thread.
+    """Returns the best path; None if the operator's own is better. `models` are worlds to try paths
+    in, one per thread.
     """
     free = list(models)
 
@@ -197,8 +197,8 @@ def search(models, state, path, operator, rounds, tries, random):
             mean, spread = elite.mean(axis=0), elite.std(axis=0) + 0.2 * SPREAD
     change, found = tried[0]
     if score(found, operator) <= score(operator, operator):
-        return None, operator
-    return varied(path, change), found
+        return None
+    return varied(path, change)
 
 
 def dig(seed: int, options) -> tuple[Cycle, Cycle]:
@@ -215,10 +215,14 @@ def dig(seed: int, options) -> tuple[Cycle, Cycle]:
     models = [first] + [first.fork() for _ in range(options.workers - 1)]
     path, expected = watch_operator(first)
     random = np.random.default_rng(seed)
-    best, _ = search(models, state, path, expected, options.rounds, options.tries, random)
+    best = search(models, state, path, expected, options.rounds, options.tries, random)
     for model in models:
         model.close()
-    _, operator = watch_operator(world.fork())
+    # Without --blind, the fork that was watched did what the operator does in this world.
+    operator = expected
+    if options.blind:
+        with world.fork() as twin:
+            _, operator = watch_operator(twin)
     planned = operator if best is None else follow(world, best)
     world.close()
     return operator, planned

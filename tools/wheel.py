@@ -23,12 +23,17 @@ WHEELS = pathlib.Path("build/wheel")
 PLATFORM = "manylinux_2_35_x86_64"
 
 
-def has_pypi():
-    """Makes build/python-env with all packages; returns False where PyPI cannot be reached."""
+def make_environment(*wanted):
+    """Makes build/python-env with the packages `wanted`; returns False, with the environment empty,
+    where PyPI cannot be reached. Raises DevError if a package cannot be installed.
+    """
     packages.install(packages.BASE, packages.PYTHON)
     workspace.run(sys.executable, "-m", "venv", ENVIRONMENT)
-    pip = [ENVIRONMENT / "bin" / "pip", "-q", "install"]
-    return workspace.run(*pip, *FROM_PYPI, *FOR_WHEELS, check=False) == 0
+    pip = ENVIRONMENT / "bin" / "pip"
+    if not workspace.output(pip, "index", "versions", "nanobind", check=False):
+        return False
+    workspace.run(pip, "-q", "install", *wanted)
+    return True
 
 
 def libraries(extension):
@@ -102,7 +107,7 @@ def try_wheel(wheel):
 
 def wheel_command():
     """Builds, repairs and tries the wheel; returns "skipped" where PyPI cannot be reached."""
-    if not has_pypi():
+    if not make_environment(*FROM_PYPI, *FOR_WHEELS):
         say("skipped: no wheel was built or tried, as PyPI cannot be reached")
         return "skipped"
     try_wheel(build_wheel())
@@ -113,14 +118,16 @@ def python_command(arguments):
     """Builds the Python extension into build/<preset>/python and runs its tests.
 
     nanobind, NumPy and Gymnasium come from PyPI into build/python-env, which every later build
-    finds. With --wheel, a wheel is built into build/wheel instead, repaired, installed in an empty
-    environment and tried there (python/README.md).
+    finds; with --wheel auditwheel and patchelf, too. With --wheel, a wheel is built into
+    build/wheel instead, repaired, installed in an empty environment and tried there
+    (python/README.md).
     """
     parser = workspace.parser(python_command, "python [--wheel]")
     parser.add_argument("--wheel", action="store_true", help="build and try a wheel")
     wanted = parser.parse_args(arguments).wheel
-    if not has_pypi():
-        raise DevError("PyPI cannot be reached: " + ", ".join(FROM_PYPI + FOR_WHEELS))
+    packages_wanted = FROM_PYPI + (FOR_WHEELS if wanted else [])
+    if not make_environment(*packages_wanted):
+        raise DevError("PyPI cannot be reached: " + ", ".join(packages_wanted))
     if wanted:
         try_wheel(build_wheel())
         return
