@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <string>
 
 #include "control/step_kinds.h"
 #include "core/file.h"
 #include "paths.h"
 #include "scene_io/loader.h"
+#include "scene_io/shipped.h"
 
 namespace navvy::scene_io {
 namespace {
@@ -147,6 +150,42 @@ TEST(ShippedFiles, SteeredMachinesHaveAnEncoderPerWheel) {
   for (const char* name : {"steered_robot", "light_truck", "ew180", "dumper"})
     EXPECT_GE(load_machine((kRoot / "vehicles" / name / "model.sdf").string()).encoders.size(), 4u)
         << name;
+}
+
+TEST(ShippedFiles, EveryBucketLoads) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(kRoot / "buckets"))
+    if (entry.path().extension() == ".sdf") {
+      expect_clean(entry.path());
+      ++count;
+    }
+  EXPECT_EQ(count, 3);
+}
+
+/// Returns the kinds of all sensors of a shipped scene.
+std::set<std::string> sensor_types_of(const std::string& name) {
+  std::set<std::string> out;
+  for (const scene::MachineInWorld& placed :
+       load_scene(find_scene(name), control::step_kinds()).machines)
+    for (const scene::Link& link : placed.machine.links)
+      for (const scene::Sensor& sensor : link.sensors) out.insert(sensor.type);
+  return out;
+}
+
+// "Cameras, laser scanners, infrared, ultrasonic and PMD sensors".
+TEST(ShippedFiles, ScenesOfThePaperHaveItsSensors) {
+  for (const auto& [name, file] : shipped_scenes())
+    if (name.rfind("paper/", 0) == 0) {
+      EXPECT_EQ(sensor_types_of(name).count("lidar"), 1u) << name;
+    }
+  for (const char* name : {"paper/diff_kinematic", "paper/diff_physics", "paper/trailer",
+                           "paper/trailer_incline", "paper/unhitch", "paper/steering_linkage"}) {
+    const std::set<std::string> types = sensor_types_of(name);
+    for (const char* type : {"sonar", "navvy:infrared", "navvy:time_of_flight"})
+      EXPECT_EQ(types.count(type), 1u) << name << ": " << type;
+  }
+  for (const char* type : {"camera", "navvy:stereo"})
+    EXPECT_EQ(sensor_types_of("paper/diff_physics").count(type), 1u) << type;
 }
 
 // Listings in the documentation that are whole files are loaded as printed.

@@ -31,8 +31,8 @@ std::string joint(const std::string& name, const std::string& parent, const std:
          "</xyz>" + (limit.empty() ? "" : "<limit>" + limit + "</limit>") + "</axis></joint>\n";
 }
 
-/// Returns a rover of 56 kg on six driven wheels, whose rear two pairs are on bogies. With
-/// `steered`, the front and the rear wheels steer.
+/// Returns a rover of 53 kg (56 kg if steered) on six driven wheels, whose rear two pairs are on
+/// bogies. With `steered`, the front and the rear wheels steer.
 std::string rover(bool steered) {
   std::string out = link("body", "0 0 0.35", 40, 1.5), wheels;
   for (const char* side : {"l", "r"}) {
@@ -121,26 +121,64 @@ TEST_P(Driving, ArrivesBesideItsStart) {
   EXPECT_LT(miss, 0.15);  // the default tolerance of drive_to
 }
 
-// Robots on gravel, loam and 6 deg; large vehicles once here, because they take seconds each.
+// On gravel, loam and dry sand, and up 6 deg of loam, as far as the motors go.
+INSTANTIATE_TEST_SUITE_P(
+    Robots, Driving,
+    testing::Values(
+        Case{"robot", "gravel", 0, 4, 0.6}, Case{"robot", "gravel", 0, 2, 0.6},
+        Case{"robot", "loam", 0, 4, 0.6}, Case{"robot", "loam", 6, 4, 0.6},
+        Case{"robot_inventor", "gravel", 0, 4, 0.6}, Case{"robot_inventor", "loam", 0, 4, 0.6},
+        Case{"robot_inventor", "loam", 6, 4, 0.6}, Case{"robot_vrml", "gravel", 0, 4, 0.6},
+        Case{"robot_vrml", "loam", 0, 4, 0.6}, Case{"robot_vrml", "loam", 6, 4, 0.6},
+        Case{"robot_with_trailer", "gravel", 0, 2.5, 0.6},
+        Case{"robot_with_trailer", "loam", 0, 4, 0.6}, Case{"steered_robot", "gravel", 0, 2.5, 0.6},
+        Case{"steered_robot", "loam", 0, 4, 0.6}, Case{"steered_robot", "loam", 6, 4, 0.6},
+        Case{"tracked_robot", "gravel", 0, 4, 0.5}, Case{"tracked_robot", "loam", 0, 4, 0.5},
+        Case{"tracked_robot", "loam", 6, 4, 0.5}, Case{"tracked_robot", "sand_dry", 0, 4, 0.5},
+        Case{"tracked_robot", "sand_dry", 6, 4, 0.5}));
 INSTANTIATE_TEST_SUITE_P(
     Vehicles, Driving,
     testing::Values(
-        Case{"robot", "gravel", 0, 4, 0.6}, Case{"robot", "gravel", 0, 2, 0.6},
-        Case{"robot", "loam", 6, 4, 0.6}, Case{"robot_with_trailer", "loam", 0, 4, 0.6},
-        Case{"robot_with_trailer", "gravel", 0, 2.5, 0.6},
-        Case{"tracked_robot", "gravel", 0, 4, 0.5}, Case{"tracked_robot", "loam", 6, 4, 0.5},
-        Case{"tracked_robot", "sand_dry", 6, 4, 0.5}, Case{"steered_robot", "gravel", 0, 2.5, 0.6},
-        Case{"steered_robot", "loam", 6, 4, 0.6}, Case{"light_truck", "gravel", 0, 7, 1.5},
-        Case{"light_truck", "sand_dry", 6, 10, 1.5}, Case{"dumper", "loam", 0, 14, 1.5},
-        Case{"ew180", "loam", 0, 14, 1.2}, Case{"ex180_tracked", "gravel", 0, 12, 0.8}));
+        Case{"light_truck", "gravel", 0, 7, 1.5}, Case{"light_truck", "loam", 0, 8, 1.5},
+        Case{"light_truck", "loam", 6, 8, 1.5}, Case{"light_truck", "sand_dry", 0, 8, 1.5},
+        Case{"light_truck", "sand_dry", 6, 10, 1.5}, Case{"dumper", "gravel", 0, 14, 1.5},
+        Case{"dumper", "loam", 0, 14, 1.5}, Case{"dumper", "loam", 6, 14, 1.5},
+        Case{"dumper", "sand_dry", 0, 14, 1.5}, Case{"ew180", "gravel", 0, 14, 1.2},
+        Case{"ew180", "loam", 0, 14, 1.2}, Case{"ew180", "loam", 6, 14, 1.2},
+        Case{"ew180", "sand_dry", 0, 14, 1.2}, Case{"ex180_tracked", "gravel", 0, 12, 0.8},
+        Case{"ex180_tracked", "loam", 0, 12, 0.8}, Case{"ex180_tracked", "loam", 6, 12, 0.8},
+        Case{"ex180_tracked", "sand_dry", 0, 12, 0.8}));
 INSTANTIATE_TEST_SUITE_P(Rovers, Driving,
                          testing::Values(Case{"rover_skid", "gravel", 0, 4, 0.5},
                                          Case{"rover_skid", "gravel", 0, 2.5, 0.5},
+                                         Case{"rover_skid", "loam", 0, 4, 0.5},
                                          Case{"rover_skid", "loam", 6, 4, 0.5},
                                          Case{"rover_skid", "sand_dry", 0, 4, 0.5},
                                          Case{"rover_steered", "gravel", 0, 2.5, 0.5},
+                                         Case{"rover_steered", "loam", 0, 4, 0.5},
                                          Case{"rover_steered", "loam", 6, 4, 0.5},
                                          Case{"rover_steered", "sand_dry", 0, 4, 0.5}));
+
+class DrivingStuck : public testing::TestWithParam<Case> {};
+
+TEST_P(DrivingStuck, SaysThatItStandsAndHowFarFromTheTarget) {
+  device::Device device;
+  Session session(beside(GetParam()), device);
+  while (!session.done()) session.step();
+  EXPECT_TRUE(session.fell_short());
+  const control::StepReport last = session.programs().at(0).last();
+  EXPECT_EQ(last.reason.find("it has stood for 5.00 s, "), 0u) << last.reason;
+  EXPECT_NE(last.reason.find(" m from the target: "), std::string::npos) << last.reason;
+}
+
+// Small wheels sink into dry sand, and the robot's motors do not pull the trailer up 6 deg of loam.
+INSTANTIATE_TEST_SUITE_P(Robots, DrivingStuck,
+                         testing::Values(Case{"robot", "sand_dry", 0, 4, 0.6},
+                                         Case{"robot_inventor", "sand_dry", 0, 4, 0.6},
+                                         Case{"robot_vrml", "sand_dry", 0, 4, 0.6},
+                                         Case{"robot_with_trailer", "sand_dry", 0, 4, 0.6},
+                                         Case{"robot_with_trailer", "loam", 6, 4, 0.6},
+                                         Case{"steered_robot", "sand_dry", 0, 4, 0.6}));
 
 }  // namespace
 }  // namespace navvy::session
