@@ -94,6 +94,23 @@ TEST_F(Map, OfASceneHasItsBodiesAsOccupiedCellsOfNav2) {
   EXPECT_EQ(near, 80 * 40 - 6 * 18);
 }
 
+TEST_F(Map, LeavesMachinesOutIfAsked) {
+  const std::string parked = path("parked.sdf");
+  std::ofstream(parked) << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="parked">
+<navvy:soil ref="loam"/><navvy:ground><size_m>24 20</size_m></navvy:ground>
+<include><uri>model://ew180</uri><name>digger</name></include></world></sdf>
+)";
+  const auto occupied = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"map", parked, "--format", "nav2", "--out", path("p.yaml")};
+    words.insert(words.end(), options.begin(), options.end());
+    EXPECT_EQ(run(words), 0) << complained();
+    const std::string pgm = test_text(path("p.pgm"));
+    return std::count(pgm.begin() + 15, pgm.end(), '\0');
+  };
+  EXPECT_GT(occupied({}), 500) << "the excavator covers 6 m x 2.5 m of columns of 0.1 m";
+  EXPECT_EQ(occupied({"--without-machines"}), 0);
+}
+
 TEST_F(Map, OfARunShowsItsFinalGroundAndOfASnapshotAlsoActiveSoil) {
   ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot",
                  path("half.snapshot"), "--snapshot-at", "0.1", "--out", out()}),

@@ -288,6 +288,10 @@ TEST_F(Messages, RunRefusesSensorsAsCheckDoes) {
   EXPECT_NE(faults[0].find("scene.sdf:3: error: sensor[eye]: '50000': a sensor reads at most once"),
             std::string::npos)
       << faults[0];
+  EXPECT_NE(faults[0].find("give update_rate of at most"), std::string::npos) << faults[0];
+  EXPECT_NE(faults[1].find("scene.sdf:3: error: sensor[eye]: '0 0 1 m'"), std::string::npos)
+      << faults[1];
+  EXPECT_NE(faults[1].find("move it out with its <pose>"), std::string::npos) << faults[1];
   EXPECT_NE(faults[1].find("the sensor is inside link 'base' of 'block' at the start"),
             std::string::npos)
       << faults[1];
