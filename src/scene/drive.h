@@ -153,10 +153,12 @@ struct AckermannDrive : Powertrain {
 /// loaders and crawlers. The steering command is a yaw rate [rad/s], positive to the left; it is
 /// available at any speed, even at standstill.
 ///
-/// All driven wheels of one side turn at the same speed. Wheels whose link has y > 0 belong to the
-/// left side. The origin of the machine's frame lies between the driven wheels; the other wheels
-/// are casters that swivel freely, or they slip.
+/// Wheels whose link has y > 0 belong to the left side. The origin of the machine's frame lies
+/// between the driven wheels; the other wheels are casters that swivel freely, or they slip.
 struct DifferentialDrive : Powertrain {
+  /// Selects what turns the driven wheels of one side: one motor for all of them, which turn at the
+  /// same speed as if joined by a chain, or one motor for each wheel.
+  enum class SideWheels { kLocked, kIndependent };
   static constexpr const char* kName = "differential";  ///< value of the attribute `type` in a file
   static constexpr const char* kSteerUnit = "rad/s";    ///< unit of the steering command
   /// Meaning of the steering command, for people.
@@ -165,12 +167,19 @@ struct DifferentialDrive : Powertrain {
   /// Distance between the middles of left and right wheels [m]; for skid-steered machines an
   /// effective value, which includes the effect of lateral slip.
   double track = 0.5;
+  /// Coupling of the driven wheels of one side. Independent wheels share the machine's force and
+  /// power evenly, so that a wheel in the air takes nothing from the others and lends them nothing.
+  SideWheels side_wheels = SideWheels::kLocked;
 
   /// Passes the fields of a differential drive to the visitor `f`.
   void describe(Fields& f) {
     Powertrain::describe(f);
     f("track_m", track, {0.01, 50}, "Distance between the middles of left and right wheels.",
       kNeeded);
+    f("side_wheels", side_wheels,
+      {{"locked", SideWheels::kLocked}, {"independent", SideWheels::kIndependent}},
+      "Driven wheels of a side: locked by a chain to one motor, or independent, each with a motor "
+      "of its own and an even share of force and power.");
   }
 };
 

@@ -32,8 +32,9 @@ std::string joint(const std::string& name, const std::string& parent, const std:
 }
 
 /// Returns a rover of 53 kg (56 kg if steered) on six driven wheels, whose rear two pairs are on
-/// bogies. With `steered`, the front and the rear wheels steer.
-std::string rover(bool steered) {
+/// bogies. With `steered`, the front and the rear wheels steer; otherwise the wheels of a side are
+/// `side_wheels`.
+std::string rover(bool steered, const std::string& side_wheels) {
   std::string out = link("body", "0 0 0.35", 40, 1.5), wheels;
   for (const char* side : {"l", "r"}) {
     const std::string s = side, y = s == "l" ? "0.35" : "-0.35";
@@ -64,7 +65,7 @@ std::string rover(bool steered) {
          "<power_w>400</power_w><brake_force_n>400</brake_force_n><track_m>0.7</track_m>" +
          (steered ? "<max_steer_deg>35</max_steer_deg><wheelbase_m>0.45</wheelbase_m>"
                     "<steer_rate_deg_per_s>60</steer_rate_deg_per_s>"
-                  : "") +
+                  : "<side_wheels>" + side_wheels + "</side_wheels>") +
          "</navvy:drive>\n";
 }
 
@@ -91,8 +92,10 @@ scene::Scene beside(const Case& one) {
                               "</speed_m_per_s></drive_to></navvy:program>";
   const bool own = name.find("rover") == 0;
   const std::string machine =
-      own ? "<model name=\"" + name + "\">" + pose + rover(name == "rover_steered") + program +
-                "</model>"
+      own ? "<model name=\"" + name + "\">" + pose +
+                rover(name == "rover_steered",
+                      name == "rover_independent" ? "independent" : "locked") +
+                program + "</model>"
           : "<include><uri>model://" + name + "</uri>" + pose + program + "</include>";
   const std::string slope =
       one.slope == 0 ? ""
@@ -148,16 +151,16 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"ew180", "sand_dry", 0, 14, 1.2}, Case{"ex180_tracked", "gravel", 0, 12, 0.8},
         Case{"ex180_tracked", "loam", 0, 12, 0.8}, Case{"ex180_tracked", "loam", 6, 12, 0.8},
         Case{"ex180_tracked", "sand_dry", 0, 12, 0.8}));
-INSTANTIATE_TEST_SUITE_P(Rovers, Driving,
-                         testing::Values(Case{"rover_skid", "gravel", 0, 4, 0.5},
-                                         Case{"rover_skid", "gravel", 0, 2.5, 0.5},
-                                         Case{"rover_skid", "loam", 0, 4, 0.5},
-                                         Case{"rover_skid", "loam", 6, 4, 0.5},
-                                         Case{"rover_skid", "sand_dry", 0, 4, 0.5},
-                                         Case{"rover_steered", "gravel", 0, 2.5, 0.5},
-                                         Case{"rover_steered", "loam", 0, 4, 0.5},
-                                         Case{"rover_steered", "loam", 6, 4, 0.5},
-                                         Case{"rover_steered", "sand_dry", 0, 4, 0.5}));
+INSTANTIATE_TEST_SUITE_P(
+    Rovers, Driving,
+    testing::Values(
+        Case{"rover_skid", "gravel", 0, 4, 0.5}, Case{"rover_skid", "gravel", 0, 2.5, 0.5},
+        Case{"rover_skid", "loam", 0, 4, 0.5}, Case{"rover_skid", "loam", 6, 4, 0.5},
+        Case{"rover_skid", "sand_dry", 0, 4, 0.5}, Case{"rover_independent", "gravel", 0, 4, 0.5},
+        Case{"rover_independent", "loam", 0, 4, 0.5}, Case{"rover_independent", "loam", 6, 4, 0.5},
+        Case{"rover_independent", "sand_dry", 0, 4, 0.5},
+        Case{"rover_steered", "gravel", 0, 2.5, 0.5}, Case{"rover_steered", "loam", 0, 4, 0.5},
+        Case{"rover_steered", "loam", 6, 4, 0.5}, Case{"rover_steered", "sand_dry", 0, 4, 0.5}));
 
 class DrivingStuck : public testing::TestWithParam<Case> {};
 

@@ -48,6 +48,46 @@ TEST(Differential, SlowsDownOnTheSameArcBeyondItsSpeed) {
               1e-12);
 }
 
+TEST(Differential, IndependentWheelsTakeNothingFromEachOther) {
+  // Two wheels on each side, all of them to go forwards; the foremost left one is in the air and
+  // spins at its speed already.
+  scene::DifferentialDrive drive;
+  drive.tractive_force = 400, drive.power = 400, drive.max_speed = 1;
+  constexpr double kRadius = 0.1;
+  const std::vector<DriveWheel> wheels = {{true, true, kRadius, 0.3},
+                                          {true, false, kRadius, 0.3},
+                                          {true, true, kRadius, -0.3},
+                                          {true, false, kRadius, -0.3}};
+  const std::vector<WheelTurn> turns = {{true, 1 / kRadius, kRadius, 0.02},
+                                        {true, 0, kRadius, 0.02},
+                                        {true, 0, kRadius, 0.02},
+                                        {true, 0, kRadius, 0.02}};
+  const auto torques = [&](scene::DifferentialDrive::SideWheels side_wheels) {
+    drive.side_wheels = side_wheels;
+    DifferentialLine line(drive, wheels);
+    std::vector<double> out;
+    for (int i = 0; i < 600; ++i) line.torques({1, 0, false}, turns, 50, kStep, out);
+    return out;
+  };
+  const auto locked = torques(scene::DifferentialDrive::SideWheels::kLocked);
+  EXPECT_EQ(locked[0], locked[2]);
+  const auto independent = torques(scene::DifferentialDrive::SideWheels::kIndependent);
+  // A quarter of the force for each that must still start, nothing for the one that has its speed.
+  const double most = 0.25 * drive.tractive_force * kRadius;
+  EXPECT_NEAR(independent[0], 0, 0.01 * most);
+  for (const std::size_t w : {1u, 2u, 3u}) EXPECT_NEAR(independent[w], most, 1e-9) << w;
+  // Nothing couples them.
+  EXPECT_TRUE(DifferentialLine(drive, wheels).differentials().empty());
+  // On the spot, each wheel turns the way of its side.
+  DifferentialLine line(drive, wheels);
+  std::vector<double> spot;
+  line.torques({0, 1, false}, std::vector<WheelTurn>(4, turns[1]), 50, kStep, spot);
+  EXPECT_LT(spot[0], 0);
+  EXPECT_EQ(spot[2], spot[0]);
+  EXPECT_EQ(spot[1], -spot[0]);
+  EXPECT_EQ(spot[3], spot[1]);
+}
+
 TEST(DriveLine, EveryKindFollowsTheArcOfItsEquivalentBicycle) {
   scene::DifferentialDrive differential;
   differential.track = 0.4;

@@ -8,11 +8,8 @@
 #include <utility>
 
 namespace navvy::vehicle {
-namespace {
 
-constexpr std::size_t kLeft = 0;  // group of the line; the other is the right side
-
-}  // namespace
+using SideWheels = scene::DifferentialDrive::SideWheels;
 
 SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& input) {
   // Rim speed that the yaw rate adds on the right and subtracts on the left.
@@ -25,13 +22,29 @@ SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& 
 
 DifferentialLine::DifferentialLine(const scene::DifferentialDrive& drive,
                                    const std::vector<DriveWheel>& wheels)
-    : DriveLine(drive, {driven_side(wheels, true), driven_side(wheels, false)}),
-      drive_(drive),
-      wheels_(wheels) {}
+    : DriveLine(drive, groups_of(drive, wheels)), drive_(drive), wheels_(wheels) {}
+
+std::vector<DriveLine::Group> DifferentialLine::groups_of(const scene::DifferentialDrive& drive,
+                                                          const std::vector<DriveWheel>& wheels) {
+  std::vector<Group> sides = {driven_side(wheels, true), driven_side(wheels, false)};
+  if (drive.side_wheels == SideWheels::kLocked) return sides;
+  std::vector<Group> each;
+  for (std::size_t w = 0; w < wheels.size(); ++w) {
+    if (!wheels[w].driven) continue;
+    Group one;
+    one.members.resize(wheels.size());
+    one.members[w] = true;
+    one.skids = sides[wheels[w].left ? 0 : 1].skids;
+    each.push_back(std::move(one));
+  }
+  for (Group& one : each) one.share = 1 / static_cast<double>(each.size());
+  return each;
+}
 
 // The wheels of a side as a chain from front to rear.
 std::vector<Coupled> DifferentialLine::differentials() const {
   std::vector<Coupled> out;
+  if (drive_.side_wheels == SideWheels::kIndependent) return out;
   scene::Differential lock;
   lock.kind = scene::Differential::Kind::kLocked;
   for (const bool left : {true, false}) {
@@ -85,9 +98,18 @@ std::optional<double> DifferentialLine::steer_angle(const DriveInput& input,
 
 double DifferentialLine::steer_rate() const { return std::numeric_limits<double>::infinity(); }
 
+bool DifferentialLine::is_left(std::size_t group) const {
+  if (drive_.side_wheels == SideWheels::kLocked) return group == 0;
+  // The groups of independent wheels are in the order of the driven wheels.
+  std::size_t driven = 0;
+  for (const DriveWheel& wheel : wheels_)
+    if (wheel.driven && driven++ == group) return wheel.left;
+  return false;
+}
+
 double DifferentialLine::group_speed(const DriveInput& input, std::size_t group) const {
   const SideSpeeds sides = side_speeds(drive_, input);
-  return group == kLeft ? sides.left : sides.right;
+  return is_left(group) ? sides.left : sides.right;
 }
 
 // Curvature of the bicycle and of the drive agree at every speed.

@@ -22,16 +22,17 @@ struct SideSpeeds {
 /// more slowly. The brake in `input` is ignored.
 SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& input);
 
-/// Drive line of a machine with differential drive. Each side has its own governor, with half of
-/// the machine's mass, force and power. All driven wheels of a side turn at the same speed, as
-/// through a chain.
+/// Drive line of a machine with differential drive. If the wheels of a side are locked to each
+/// other, each side has its own governor, with half of the machine's mass, force and power, and its
+/// driven wheels turn at the same speed, as through a chain. If they are independent, each driven
+/// wheel has its own governor, with an even share of mass, force and power.
 ///
 /// Each side approaches its commanded speed independently. After a new command, the machine may
 /// therefore leave the commanded arc until both sides have reached their speeds.
 class DifferentialLine final : public DriveLine {
  public:
   /// Makes the drive line for `drive`.
-  /// @param wheels all wheels of the machine; the driven ones form a left and a right group
+  /// @param wheels all wheels of the machine
   DifferentialLine(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels);
   /// Returns the motion of the machine for the command `input`, from the limited rim speeds of both
   /// sides; zero under the brake.
@@ -50,12 +51,18 @@ class DifferentialLine final : public DriveLine {
   /// Returns false, since each side has its own motor and the wheels' efforts report its torque.
   bool has_shafts() const override { return false; }
   /// Returns one locked differential between each driven wheel and the next one of its side, named
-  /// left_1, right_1 and so on from front to rear; nothing for one driven wheel per side.
+  /// left_1, right_1 and so on from front to rear; nothing for one driven wheel per side or for
+  /// independent wheels.
   std::vector<Coupled> differentials() const override;
 
  private:
-  /// Returns the commanded rim speed [m/s] of one side: group 0 is the left side, group 1 the right
-  /// one.
+  /// Makes the groups of wheels that have a governor each: the left and the right side, or each
+  /// driven wheel.
+  static std::vector<Group> groups_of(const scene::DifferentialDrive& drive,
+                                      const std::vector<DriveWheel>& wheels);
+  /// Returns true if the wheels of a group are on the left side.
+  bool is_left(std::size_t group) const;
+  /// Returns the commanded rim speed [m/s] of the side to which a group's wheels belong.
   double group_speed(const DriveInput& input, std::size_t group) const override;
 
   /// Properties of the drive as given in the scene.
