@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """`./dev fuzz`: libFuzzer targets, their kept inputs and totals."""
+import base64
 import concurrent.futures
 import datetime
+import gzip
 import re
 import shutil
 import threading
@@ -234,7 +236,22 @@ class Fuzzers:
             )
         else:
             workspace.print_tail("build/fuzz/%s.log" % name)
+            self.print_crash(name, begun)
         return good
+
+    def print_crash(self, name, begun):
+        """Prints the newest input that a walk found since `begun` [s, of the monotonic clock], so
+        that it can be tried where the log is all there is.
+        """
+        age = time.monotonic() - begun
+        new = [
+            path
+            for path in (ROOT / "build/fuzz/crashes").glob(name + "-*")
+            if time.time() - path.stat().st_mtime < age
+        ]
+        for path in sorted(new, key=lambda path: path.stat().st_mtime)[-1:]:
+            packed = base64.b64encode(gzip.compress(path.read_bytes(), mtime=0)).decode()
+            say("%s, for `base64 -d | gunzip`: %s" % (path.name, packed))
 
     def add_total(self, name, inputs, seconds, crashes):
         """Adds a walk to totals.csv, in CI not; returns the text of the file."""

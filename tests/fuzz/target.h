@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 
 #ifdef NAVVY_FUZZ_REPLAY
@@ -16,9 +17,12 @@
 
 namespace navvy::fuzz {
 
-/// Checks a property of accepted input; libFuzzer keeps the input that breaks it.
-inline void hold(bool property) {
-  if (!property) std::abort();
+/// Checks a property of accepted input and names the line of the check if it is broken; libFuzzer
+/// keeps the input.
+inline void hold(bool property, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  if (property) return;
+  std::fprintf(stderr, "%s:%d: the input breaks this property\n", file, line);
+  std::abort();
 }
 
 }  // namespace navvy::fuzz
