@@ -156,12 +156,14 @@ void Resolver::materials() {
   const Element* shared =
       document ? document->root()->FirstChildElement("navvy:materials") : nullptr;
   if (shared == nullptr) return;
-  // Pairs of the file come before those of the scene.
-  tinyxml2::XMLNode* last = file;
-  for (const Element* pair = shared->FirstChildElement("pair"); pair;
-       pair = pair->NextSiblingElement("pair"))
-    last = table->InsertAfterChild(last, pair->DeepClone(table->GetDocument()));
+  // Pairs of the file come before those of the scene, wherever <file> stands.
   table->DeleteChild(file);
+  tinyxml2::XMLNode* last = nullptr;
+  for (const Element* pair = shared->FirstChildElement("pair"); pair;
+       pair = pair->NextSiblingElement("pair")) {
+    tinyxml2::XMLNode* copy = pair->DeepClone(table->GetDocument());
+    last = last == nullptr ? table->InsertFirstChild(copy) : table->InsertAfterChild(last, copy);
+  }
 }
 
 void Resolver::meshes(Element& model) {

@@ -129,20 +129,25 @@ TEST(Resolved, TextHoldsEveryOverride) {
 }
 
 TEST(Resolved, IncludesTheTableOfMaterials) {
-  const std::string scene =
-      R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/><navvy:ground/>
-<navvy:materials><file>materials.sdf</file><ground>earth</ground>
-<pair materials="ice earth"><static_friction>0.1</static_friction></pair></navvy:materials></world></sdf>)";
-  Faults faults;
-  const auto document = Document::parse(scene, "here/scene.sdf", faults);
-  ASSERT_TRUE(document);
-  const scene::Scene first = read_world(*document, control::step_kinds(), faults);
-  const std::string text = resolved_text(*document, first);
-  EXPECT_EQ(text.find("<file>materials.sdf"), std::string::npos);
-  const scene::Scene again = load_scene_from_string(text, kElsewhere, control::step_kinds());
-  EXPECT_EQ(scene::parameters(again), scene::parameters(first));
-  EXPECT_EQ(again.materials.pairs.size(), first.materials.pairs.size());
-  EXPECT_GT(again.materials.pairs.size(), 5u);
+  const std::string file = "<file>materials.sdf</file>",
+                    own = "<ground>earth</ground><pair materials=\"ice earth\"><static_friction>0.1"
+                          "</static_friction></pair>";
+  // The pairs of the file come first, wherever its element stands.
+  for (const std::string& table : {file + own, own + file}) {
+    const std::string scene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w">
+<navvy:soil ref="loam"/><navvy:ground/><navvy:materials>)" +
+                              table + "</navvy:materials></world></sdf>";
+    Faults faults;
+    const auto document = Document::parse(scene, "here/scene.sdf", faults);
+    ASSERT_TRUE(document);
+    const scene::Scene first = read_world(*document, control::step_kinds(), faults);
+    const std::string text = resolved_text(*document, first);
+    EXPECT_EQ(text.find("<file>materials.sdf"), std::string::npos);
+    const scene::Scene again = load_scene_from_string(text, kElsewhere, control::step_kinds());
+    EXPECT_EQ(scene::parameters(again), scene::parameters(first));
+    EXPECT_EQ(again.materials.pairs.size(), first.materials.pairs.size());
+    EXPECT_GT(again.materials.pairs.size(), 5u);
+  }
 }
 
 TEST(Resolved, NamesAMapOfTheCommandLineIndependentlyOfItsPlace) {
