@@ -89,6 +89,70 @@ TEST(Drive, ArrivesBesideAndTurned) {
     }
 }
 
+/// How a drive ended whose machine is pushed aside by `push` [m] in each of its first `pushes`
+/// approaches, 1 m before the target, which is too near to steer back.
+struct PushedAside {
+  StepReport report;
+  int pushed = 0;
+  bool backed_off = false;
+};
+
+PushedAside pushed_aside(int pushes, double push) {
+  const DriveTo goal = to(12, 0, 0);
+  Operator op(ew180_like(), {{goal}, {}}, "digger");
+  Bicycle bicycle;
+  Observation seen;
+  seen.joints.resize(4);
+  PushedAside out;
+  bool away = true;  // since the last push, the machine has been further away
+  double time = 0;
+  for (; time < 300 && !op.ended(); time += kStep) {
+    const PlanePose& at = bicycle.at;
+    seen.X_WB = make_pose(at.p.x(), at.p.y(), 0, 0, 0, at.yaw);
+    seen.v_WB = bicycle.speed * Vec3(std::cos(at.yaw), std::sin(at.yaw), 0);
+    const Command command = op.update(seen, time, kStep);
+    if (command.drive) bicycle.step(*command.drive);
+    out.backed_off = out.backed_off || op.phase() == "back_off";
+    away = away || at.p.x() < 9;
+    if (out.pushed < pushes && away && at.p.x() > 11) {
+      bicycle.at.p.y() += push;
+      ++out.pushed;
+      away = false;
+    }
+  }
+  out.report = op.present(seen, time);
+  return out;
+}
+
+TEST(Drive, BacksOffAndComesAgainIfPushedAside) {
+  const PushedAside a = pushed_aside(1, 0.6);
+  EXPECT_EQ(a.pushed, 1);
+  EXPECT_TRUE(a.backed_off);
+  EXPECT_EQ(a.report.state, StepState::kDone) << a.report.reason;
+  EXPECT_EQ(a.report.reason.find("its first approach ended 0."), 0u) << a.report.reason;
+  EXPECT_NE(a.report.reason.find(" m from the target; it backed off and came again"),
+            std::string::npos)
+      << a.report.reason;
+  EXPECT_LT((a.report.place.head<2>() - Vec2(12, 0)).norm(), DriveTo{}.tolerance);
+  // Without a push there is nothing to remark.
+  const PushedAside free = pushed_aside(0, 0);
+  EXPECT_FALSE(free.backed_off);
+  EXPECT_EQ(free.report.state, StepState::kDone);
+  EXPECT_EQ(free.report.reason, "");
+}
+
+TEST(Drive, IsOutOfReachAfterTheLastApproach) {
+  const PushedAside a = pushed_aside(9, 0.6);
+  EXPECT_EQ(a.pushed, 2);
+  EXPECT_TRUE(a.backed_off);
+  EXPECT_EQ(a.report.state, StepState::kOutOfReach) << a.report.reason;
+  EXPECT_EQ(a.report.reason.find("it stands 0."), 0u) << a.report.reason;
+  EXPECT_NE(a.report.reason.find(" m from the target after 2 approaches; allowed are 0.15 m"),
+            std::string::npos)
+      << a.report.reason;
+  EXPECT_GT((a.report.place.head<2>() - Vec2(12, 0)).norm(), DriveTo{}.tolerance);
+}
+
 TEST(Drive, FollowsTheStraightLineToATargetWithoutHeading) {
   DriveTo goal;
   goal.target = Vec2(10, 4);
