@@ -117,6 +117,66 @@ TEST_F(MachineImport, SteeredWheelsMakeAnAckermannDrive) {
   EXPECT_FALSE(says("to correct")) << report_;
 }
 
+TEST_F(MachineImport, WhatTheReaderDropsIsNamedWithItsLine) {
+  import(cart());
+  EXPECT_FALSE(says("is ignored")) << report_;
+  // The robot's first line is that of <robot>, and each link and joint has one.
+  import(cart() + "<gazebo><plugin name='p' filename='f'/></gazebo>");
+  EXPECT_TRUE(says("dropped or assumed by the reader: " + (folder_ / "r.urdf") +
+                   ":7: warning: robot[r]/gazebo: is ignored (plugins of Gazebo are not run)"))
+      << report_;
+  std::ofstream(folder_ / "m.sdf")
+      << "<sdf version='1.6'>\n<model name='m'>\n<link name='a'><inertial><mass>9</mass></inertial>"
+         "</link>\n<plugin name='p' filename='f'/></model></sdf>";
+  std::string report;
+  for (const std::string& sentence : import_machine(folder_ / "m.sdf", {folder_ / "sdf", 0, ""}))
+    report += sentence + "\n";
+  EXPECT_NE(report.find("dropped or assumed by the reader: " + (folder_ / "m.sdf") +
+                        ":4: warning: model[m]/plugin[p]: "),
+            std::string::npos)
+      << report;
+}
+
+TEST_F(MachineImport, WhatTheDriveAssumesIsMarked) {
+  const auto with_motor = [](const std::string& motor) {
+    std::string robot = cart();
+    for (std::size_t at = robot.find(kMotor); at != std::string::npos; at = robot.find(kMotor, at))
+      robot.replace(at, kMotor.size(), motor);
+    return robot;
+  };
+  const std::string made = "made: a drive by the difference of sides, ";
+  import(cart());
+  EXPECT_TRUE(says(made + "1 m/s, 100 N\n")) << report_;
+  import(with_motor("<limit effort='10' velocity='0'/>"));
+  EXPECT_TRUE(says(made + "1 m/s (assumed), 100 N\n")) << report_;
+  // Half the weight of 54 kg.
+  import(with_motor("<limit effort='0' velocity='10'/>"));
+  EXPECT_TRUE(says(made + "2 m/s, 264.87 N (assumed)\n")) << report_;
+  const scene::Machine machine = import(with_motor(""));
+  EXPECT_TRUE(says(made + "1 m/s (assumed), 264.87 N (assumed)\n")) << report_;
+  const auto& drive = std::get<scene::DifferentialDrive>(machine.drive);
+  EXPECT_NEAR(drive.max_speed, 1, 1e-9);
+  EXPECT_NEAR(drive.tractive_force, 0.5 * 54 * kGravity, 1e-3);
+}
+
+TEST_F(MachineImport, AWheelThatSwivelsAloneIsACaster) {
+  const scene::Machine machine =
+      import(cart() + link("fork", 1, "<box size='0.05 0.05 0.05'/>") + link("third", 2, kTyre) +
+             joint("swivel", "continuous", "body", "fork", "0.4 0 0", "0 0 0", "0 0 1") +
+             joint("roll", "continuous", "fork", "third", "0 0 0", kToLeft, "0 0 1"));
+  ASSERT_EQ(machine.wheels.size(), 3u) << report_;
+  EXPECT_TRUE(says("made: wheel 'third' on joint 'roll', radius 0.2 m, width 0.1 m, a caster; "))
+      << report_;
+  EXPECT_TRUE(says("made: wheel 'l' on joint 'spin_l', radius 0.2 m, width 0.1 m, driven; "))
+      << report_;
+  for (const scene::Wheel& wheel : machine.wheels) {
+    EXPECT_EQ(wheel.driven, wheel.joint != "roll") << wheel.joint;
+    EXPECT_TRUE(wheel.steer_joint.empty()) << wheel.joint;
+  }
+  EXPECT_TRUE(std::holds_alternative<scene::DifferentialDrive>(machine.drive)) << report_;
+  EXPECT_FALSE(says("to correct")) << report_;
+}
+
 TEST_F(MachineImport, PlaceholdersOfMassAreNamedOrReplaced) {
   const scene::Machine kept = import(cart(0.03));
   EXPECT_NEAR(kept.links[0].mass, 0.03, 1e-9);

@@ -74,11 +74,12 @@ Names reachable(const std::string& module) {
   return seen;
 }
 
-/// A third-party library: prefix of its headers, and the folders that may include them.
+/// A third-party library: prefix of its headers, and the folders and single files that may include
+/// them.
 struct Library {
   std::string name;
   std::vector<std::string> prefixes;
-  std::vector<std::string> folders;
+  std::vector<std::string> places;
 };
 
 const std::vector<Library>& libraries() {
@@ -91,7 +92,7 @@ const std::vector<Library>& libraries() {
       {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"src/heightfield/gdal"}},
       {"Coin, OpenGL, OSMesa",
        {"Inventor/", "GL/", "EGL/"},
-       {"src/render", "src/geometry/formats"}},
+       {"src/render", "src/geometry/formats/read_inventor.cpp"}},
       {"Assimp", {"assimp/"}, {"src/geometry/formats"}},
       {"tinyobjloader", {"tiny_obj_loader.h"}, {"src/geometry/obj"}},
       {"libpng", {"png.h"}, {"src/render", "src/record", "src/formats"}},
@@ -144,10 +145,11 @@ std::vector<std::string> check(const SourceFile& file) {
         });
     if (include.angle && is_system(include.name)) continue;
     if (include.angle || (library != libraries().end() && !exists("src/" + include.name))) {
-      const bool right_place =
-          library != libraries().end() &&
-          std::any_of(library->folders.begin(), library->folders.end(),
-                      [&](const std::string& folder) { return file.under(folder); });
+      const bool right_place = library != libraries().end() &&
+                               std::any_of(library->places.begin(), library->places.end(),
+                                           [&](const std::string& place) {
+                                             return file.path == place || file.under(place);
+                                           });
       if (library == libraries().end())
         says("<" + include.name + "> belongs to no library of the table");
       if (library != libraries().end() && !right_place)
@@ -338,6 +340,10 @@ TEST(Includes, ViolationsAreFound) {
   EXPECT_EQ(violations("src/planner/ompl/a.cpp", "#include <ompl/config.h>\n"), 0u);
   EXPECT_EQ(violations("src/sensor/a.cpp", "#include \"render/renderer.h\"\n"), 1u);
   EXPECT_EQ(violations("src/sensor/camera/a.cpp", "#include \"render/renderer.h\"\n"), 0u);
+  EXPECT_EQ(violations("src/render/a.cpp", "#include <Inventor/SbBox.h>\n"), 0u);
+  EXPECT_EQ(violations("src/geometry/formats/a.cpp", "#include <Inventor/SbBox.h>\n"), 1u);
+  EXPECT_EQ(violations("src/geometry/formats/read_inventor.cpp", "#include <Inventor/SbBox.h>\n"),
+            0u);
   EXPECT_EQ(violations("src/attic/a.cpp", ""), 1u);
 }
 

@@ -138,6 +138,35 @@ TEST_F(ReadMesh, GltfIsTurnedZUpAndReadsOnlyBuffersBesideIt) {
   EXPECT_NE(refusal("below/a.gltf", outside), "");
 }
 
+TEST_F(ReadMesh, BinaryGltfIsTurnedZUpWithItsColor) {
+  const float points[9] = {0, 0, 0, 1, 0, 0, 0, 2, 0};
+  std::string json = kGltf;
+  const std::string uri = R"(,"uri":"points.bin")";
+  json.erase(json.find(uri), uri.size());
+  // The chunks of the format are padded to four bytes.
+  json.append((4 - json.size() % 4) % 4, ' ');
+  const auto number = [](std::size_t value) {
+    const auto bits = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&bits), sizeof bits);
+  };
+  const std::string file =
+      write("a.glb", "glTF" + number(2) + number(12 + 8 + json.size() + 8 + sizeof points) +
+                         number(json.size()) + "JSON" + json + number(sizeof points) +
+                         std::string("BIN\0", 4) +
+                         std::string(reinterpret_cast<const char*>(points), sizeof points));
+  const TriangleMesh mesh = read_mesh(file);
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_LT(mesh.corner(0, 0).norm(), 1e-6);
+  EXPECT_LT((mesh.corner(0, 1) - Vec3(1, 0, 0)).norm(), 1e-6);
+  // Its y, which is up, is our z.
+  EXPECT_LT((mesh.corner(0, 2) - Vec3(0, 0, 2)).norm(), 1e-6);
+  ASSERT_EQ(mesh.materials.size(), 1u);
+  EXPECT_EQ(mesh.material_of.at(0), 0);
+  const float color[3] = {0.25f, 0.5f, 0.75f};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(mesh.materials[0].diffuse[i], color[i], 1e-6) << i;
+}
+
 TEST_F(ReadMesh, InventorAndVrmlKeepPlaceAndColor) {
   const TriangleMesh face = read_mesh(write("a.iv", kInventor));
   EXPECT_EQ(face.triangles.size(), 2u);
@@ -166,6 +195,7 @@ TEST_F(ReadMesh, BrokenFilesAreRefusedWithLineAndRemedy) {
   const std::string dae = collada("Z_UP");
   const std::string cut = refusal("cut.dae", dae.substr(0, dae.find("<triangles")));
   EXPECT_NE(cut.find("cut.dae:14: error"), std::string::npos) << cut;
+  EXPECT_NE(cut.find("'end of the file'"), std::string::npos) << cut;
   EXPECT_NE(cut.find("must end with </COLLADA>"), std::string::npos) << cut;
   EXPECT_NE(cut.find("copy or export it again"), std::string::npos) << cut;
   const std::string ascii = kStl;
