@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include "core/saved_state.h"
 #include "sensor/scenes.h"
@@ -129,6 +130,79 @@ TEST_F(SensorTest, SweepsWhileItMoves) {
         << i;
 }
 
+TEST_F(SensorTest, SweepsOverABodyThatMoves) {
+  // Beams straight ahead, one after the other, on a box that a slide moves towards a laser at 2
+  // m/s.
+  constexpr int kBeams = 9;
+  constexpr double kSweep = 0.018, kSpeed = 2, kHalf = 0.5;
+  const std::string slide = R"(<model name="slide"><navvy:physics>kinematic</navvy:physics>
+<static>true</static><navvy:on_ground>false</navvy:on_ground><pose>8 0 0.1 0 0 0</pose>
+<link name="base"><visual name="v"><geometry><box><size>0.1 0.1 0.1</size></box></geometry></visual></link>
+<link name="box"><pose>0 0 0.9 0 0 0</pose>
+<visual name="v"><geometry><box><size>1 1 1</size></box></geometry></visual></link>
+<joint name="x" type="prismatic"><parent>base</parent><child>box</child><axis><xyz>1 0 0</xyz>
+<limit><lower>-6</lower><upper>6</upper><velocity>5</velocity></limit></axis></joint></model>)";
+  const auto world = world_of(
+      scene_of(mast(laser("0 0 0.9 0 0 0", kBeams, 0,
+                          "<navvy:sweep_s>" + std::to_string(kSweep) + "</navvy:sweep_s>")) +
+               slide),
+      device_);
+  const sim::MachineHandle machine = world->machines().at("slide");
+  world->commands().set(machine.joint("x"), {vehicle::JointMode::kVelocity, -kSpeed});
+  // Ends of the steps, and where the face of the box is then.
+  std::vector<double> times, faces;
+  times.reserve(10000);
+  faces.reserve(10000);
+  const auto view = [&] { return world->arrays().view("mast/laser/ranges"); };
+  while (view().time() < 0.5) {
+    world->step();
+    times.push_back(world->time());
+    faces.push_back(machine.link("box").pose().translation().x() - kHalf);
+  }
+  ASSERT_LT(machine.link("box").velocity().x(), -0.99 * kSpeed);
+  const auto read = view().values<float>();
+  for (int i = 0; i < kBeams; ++i) {
+    // The world is as it is at the end of the step around the beam's instant.
+    const double t = view().time() + kSweep * i / (kBeams - 1);
+    const auto end = std::lower_bound(times.begin(), times.end(), t - 1e-9);
+    ASSERT_NE(end, times.end());
+    const double face = faces[static_cast<std::size_t>(end - times.begin())];
+    << world->dt() << " " << t << "\n";
+    EXPECT_NEAR(read[static_cast<std::size_t>(i)], face, 2e-4) << i;
+  }
+  // From the first to the last beam the box has come nearer, within a step.
+  EXPECT_NEAR(read[0] - read[kBeams - 1], kSpeed * kSweep, kSpeed * world->dt());
+}
+
+TEST_F(SensorTest, BeamsHaveTheMeanAndTheDeviationOfTheirNoise) {
+  // 1000 beams straight ahead on a wall at 4 m, 100 times.
+  constexpr int kBeams = 1000, kScans = 100;
+  const std::string noise =
+      "<noise><type>gaussian</type><mean>0.05</mean><stddev>0.02</stddev></noise>";
+  const auto world =
+      world_of(scene_of(mast(laser("0 0 0.9 0 0 0", kBeams, 0, "", noise)) +
+                        body("wall", "4.5 0 1 0 0 0", "<box><size>1 4 2</size></box>")),
+               device_);
+  double sum = 0, squares = 0;
+  std::uint64_t scans = 0;
+  while (scans < kScans) {
+    const auto view = world->arrays().view("mast/laser/ranges");
+    if (view.sequence() > scans) {
+      ASSERT_EQ(view.sequence(), ++scans);
+      for (const float read : view.values<float>()) {
+        const double error = static_cast<double>(read) - 4;
+        sum += error;
+        squares += error * error;
+      }
+    }
+    world->step();
+  }
+  constexpr int kReadings = kBeams * kScans;
+  const double mean = sum / kReadings, sigma = std::sqrt(squares / kReadings - mean * mean);
+  EXPECT_NEAR(mean, 0.05, 0.02 * 0.05);
+  EXPECT_NEAR(sigma, 0.02, 0.02 * 0.02);
+}
+
 TEST_F(SensorTest, ListsItsArraysWithKindAndFrames) {
   const auto world = rolling(robot_laser("laser", ""));
   const std::vector<SensorOutput> all = sensor_outputs(*world);
@@ -170,6 +244,26 @@ TEST_F(SensorTest, UltrasoundReturnsTheFirstEchoInItsCone) {
       device_);
   const float read = world->arrays().view("mast/sonar/range").values<float>()[0];
   EXPECT_NEAR(read, std::hypot(3, 0.5) - 0.1, 0.02);
+}
+
+TEST_F(SensorTest, UltrasoundHearsNothingBesideItsCone) {
+  // Half the cone is 10 deg.
+  const std::string sonar =
+      "<sensor name=\"sonar\" type=\"sonar\"><pose>0 0 1.4 0 0 0</pose><update_rate>20"
+      "</update_rate><sonar><min>0.2</min><max>5</max><radius>0.882</radius></sonar></sensor>";
+  const auto read = [&](double aside_deg) {
+    const double a = radians(aside_deg);
+    const auto world = world_of(
+        scene_of(mast(sonar) + body("post",
+                                    std::to_string(3 * std::cos(a)) + " " +
+                                        std::to_string(3 * std::sin(a)) + " 1.5 0 0 0",
+                                    "<cylinder><radius>0.1</radius><length>3</length></cylinder>")),
+        device_);
+    return world->arrays().view("mast/sonar/range").values<float>()[0];
+  };
+  EXPECT_NEAR(read(5), 2.9, 0.02);
+  EXPECT_EQ(read(20), std::numeric_limits<float>::infinity());
+  EXPECT_EQ(read(-20), std::numeric_limits<float>::infinity());
 }
 
 TEST_F(SensorTest, InertialUnitAtRestFeelsGravity) {

@@ -8,13 +8,13 @@
 #include <fstream>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/hash.h"
 #include "folder.h"
 #include "process.h"
-#include "sensor/digging_bucket.h"
-#include "sensor/scenes.h"
+#include "sensor/all_kinds.h"
 #include "session/session.h"
 #include "text_of.h"
 
@@ -25,32 +25,27 @@ namespace {
 constexpr const char* kFile = "NAVVY_TEST_READINGS";
 constexpr const char* kSeed = "NAVVY_TEST_SEED";
 
-/// Returns sensors of all kinds that look at a digging bucket or measure it, with errors.
-std::string noisy_sensors() {
-  return R"(<navvy:sensor name="laser" link="base" type="lidar"><pose>-3 0 2.2 0 0.5 0</pose>
+/// Returns more sensors that look at the digging bucket: a scanner with rings, outliers and dropped
+/// beams, and a preset.
+std::string more_sensors() {
+  return R"(<navvy:sensor name="rings" link="base" type="lidar"><pose>-3 0 2.2 0 0.5 0</pose>
 <update_rate>20</update_rate><navvy:latency_s>0.03</navvy:latency_s>
 <navvy:sweep_s>0.04</navvy:sweep_s><lidar><scan><horizontal><samples>91</samples>
 <min_angle>-0.6</min_angle><max_angle>0.6</max_angle></horizontal><vertical><samples>31</samples>
 <min_angle>-0.7</min_angle><max_angle>0.2</max_angle></vertical></scan><noise><type>gaussian</type>
 <stddev>0.01</stddev><bias_stddev>0.02</bias_stddev></noise></lidar>
 <navvy:outlier_share>0.01</navvy:outlier_share><navvy:drop_share>0.02</navvy:drop_share>
-</navvy:sensor><navvy:sensor name="map" link="base" type="navvy:map"><update_rate>10</update_rate>
-</navvy:sensor><navvy:sensor name="pmd" link="base"><navvy:preset>pmd_camera</navvy:preset>
-<pose>-3 0 2.2 0 0.7 0</pose></navvy:sensor>
-<navvy:sensor name="labels" link="base" type="segmentation"><pose>-3 0 2.2 0 0.6 0</pose>
-<update_rate>5</update_rate><camera><image><width>80</width><height>60</height></image></camera>
-</navvy:sensor><navvy:sensor name="tip" link="bucket" type="navvy:tool_force">
-<update_rate>50</update_rate><navvy:tool_force><shell>bucket</shell></navvy:tool_force>
-</navvy:sensor><navvy:sensor name="scale" link="bucket" type="navvy:payload">
-<update_rate>10</update_rate><navvy:payload><shell>bucket</shell><scale_error>0.02</scale_error>
-</navvy:payload></navvy:sensor>)";
+</navvy:sensor><navvy:sensor name="preset" link="base"><navvy:preset>pmd_camera</navvy:preset>
+<pose>-3 0 2.2 0 0.7 0</pose></navvy:sensor>)";
 }
 
-/// Digs for 2.4 s, and writes the device and a line for each array: its name, the number of its
-/// readings and a hash of all their bytes.
+/// Digs for 2.4 s before sensors of every kind, and writes the device and a line for each array:
+/// its name, the number of its readings and a hash of all their bytes.
 void write_readings(const std::string& file, std::uint64_t seed) {
   device::Device device("cpu");
-  scene::Scene scene = testing::scene_of(testing::digging_bucket(noisy_sensors()));
+  scene::Scene scene = testing::all_kinds(more_sensors());
+  ASSERT_EQ(testing::kinds_in(scene), std::variant_size_v<scene::SensorKind>)
+      << "a kind has no sensor here";
   scene.seed = seed;
   session::Session session(std::move(scene), device);
   for (auto& one : make_sensors(session.world())) session.add(std::move(one));
@@ -107,7 +102,7 @@ TEST(SensorThreads, OneAndTwoThreadsGiveTheSameReadings) {
   // The setting is effective: the device reports its number of workers.
   EXPECT_NE(one.device.find(" 1 compute unit"), std::string::npos) << one.device;
   EXPECT_NE(two.device.find(" 2 compute unit"), std::string::npos) << two.device;
-  EXPECT_EQ(std::count(one.arrays.begin(), one.arrays.end(), '\n'), 9) << one.arrays;
+  EXPECT_EQ(std::count(one.arrays.begin(), one.arrays.end(), '\n'), 28) << one.arrays;
   EXPECT_EQ(one.arrays, two.arrays);
   EXPECT_NE(one.arrays, other.arrays);
   // What has no errors is the same with any seed.
