@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/base64.h"
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/sealed.h"
 #include "link/array_header.h"
-#include "link/base64.h"
 #include "map/map_queries.h"
 #include "map/map_sources.h"
 #include "render/image.h"

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base64.h"
 #include "core/error.h"
 #include "run/scene.h"
 
@@ -15,22 +16,6 @@ namespace navvy::link {
 namespace {
 
 using nlohmann::json;
-
-/// Decodes valid base64.
-std::vector<char> decoded(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<char> out;
-  unsigned bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
-    if ((count += 6) < 8) continue;
-    count -= 8;
-    out.push_back(static_cast<char>(bits >> count & 0xFF));
-  }
-  return out;
-}
 
 TEST(ControlRequests, SendArraysWithStampShapeUnitAndFrame) {
   run::Simulation simulation(run::test::bucket_scene(2), run::test::with_height_grid());
@@ -48,9 +33,10 @@ TEST(ControlRequests, SendArraysWithStampShapeUnitAndFrame) {
   EXPECT_EQ(grid.at("sequence"), view.sequence());
   EXPECT_EQ(grid.at("time"), view.time());
   EXPECT_EQ(grid.at("position_m")[0], view.X_WF().translation().x());
-  const std::vector<char> bytes = decoded(grid.at("data_base64"));
-  ASSERT_EQ(bytes.size(), view.bytes().size());
-  EXPECT_EQ(std::memcmp(bytes.data(), view.bytes().data(), bytes.size()), 0);
+  const auto bytes = base64_bytes(grid.at("data_base64").get<std::string>());
+  ASSERT_TRUE(bytes);
+  ASSERT_EQ(bytes->size(), view.bytes().size());
+  EXPECT_EQ(std::memcmp(bytes->data(), view.bytes().data(), bytes->size()), 0);
   EXPECT_EQ(requests.answer({{"arrays", true}}), answer);
   EXPECT_EQ(requests.answer({{"arrays", json::array()}}).at("arrays"), json::object());
   const json info = requests.answer({{"info", true}}).at("info");
