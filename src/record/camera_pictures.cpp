@@ -29,8 +29,10 @@ void CameraPictures::draw(const std::vector<const scene::Camera*>& cameras,
   if (!context_) context_ = std::make_unique<Context>(session_);
   context_->overlays.build(context_->frames.overlay());
   const scene::Frame& frame = context_->frames.build();
-  for (const scene::Camera* camera : cameras)
-    receiver(*camera, context_->renderer.render(frame, context_->frames.camera(*camera)));
+  for (const scene::Camera* camera : cameras) {
+    const scene::FrameCamera placed = context_->frames.camera(*camera);
+    receiver(*camera, placed.X_WC, context_->renderer.render(frame, placed));
+  }
 }
 
 render::Image CameraPictures::draw(const std::string& camera) {
@@ -39,7 +41,8 @@ render::Image CameraPictures::draw(const std::string& camera) {
   for (const scene::Camera& one : session_.world().description().cameras) {
     names.push_back(one.name);
     if (one.name != camera) continue;
-    draw({&one}, [&](const scene::Camera&, render::Image image) { out = std::move(image); });
+    draw({&one},
+         [&](const scene::Camera&, const Pose&, render::Image image) { out = std::move(image); });
     return out;
   }
   throw InputError(Fault{Fault::Severity::kError, "", 0, "camera", camera,

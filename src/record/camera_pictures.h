@@ -19,8 +19,9 @@ namespace navvy::record {
 /// are drawn on the calling thread.
 class CameraPictures {
  public:
-  /// Function that receives each picture as soon as it is drawn.
-  using Receiver = std::function<void(const scene::Camera& camera, render::Image image)>;
+  /// Function that receives each picture as soon as it is drawn, with the camera's pose X_WC.
+  using Receiver =
+      std::function<void(const scene::Camera& camera, const Pose& X_WC, render::Image image)>;
 
   /// Creates an object that draws the world of `session`, which must outlive it, with the overlays
   /// of its scene. Draws nothing yet.

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "record/tool_point.h"
 #include "scene/design.h"
 #include "sim/occupied_areas.h"
 #include "sim/world_terrain.h"
@@ -52,15 +53,6 @@ double weight_of(const scene::Machine& machine) {
   return kGravity *
          std::accumulate(machine.links.begin(), machine.links.end(), 0.0,
                          [](double sum, const scene::Link& link) { return sum + link.mass; });
-}
-
-/// Returns the point of a tool that its force is drawn at: the middle of a bucket's edge, else the
-/// middle of the shell.
-Vec3 point_of(const scene::Shell& shell) {
-  if (shell.toothed) return shell.toothed->p_tip;
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : shell.vertices) sum += p;
-  return shell.vertices.empty() ? sum : Vec3(sum / static_cast<double>(shell.vertices.size()));
 }
 
 }  // namespace
@@ -162,7 +154,7 @@ void OverlayBuilder::add_forces(int machine, FrameOverlay& out) const {
     const Vec3 force = handle.tool(static_cast<int>(s)).smooth_force();
     if (force.norm() < kLeastForce * weight) continue;
     const int link = described.link_index(described.shells[s].link);
-    const Vec3 at = handle.link(link).pose() * point_of(described.shells[s]);
+    const Vec3 at = handle.link(link).pose() * tool_point(described.shells[s]);
     add_arrow(out, at - size * force / weight, at, kRed);
     out.labels.push_back({at - size * force / weight, text("%.1f kN", force.norm() / 1e3), kRed});
   }

@@ -16,6 +16,7 @@
 #include "record/hash_log.h"
 #include "record/map_recorder.h"
 #include "record/path_file.h"
+#include "record/replay_recorder.h"
 #include "record/run_info.h"
 #include "record/sensor_streams.h"
 #include "record/telemetry.h"
@@ -51,6 +52,7 @@ struct Recorder::State {
   PictureFiles picture_files;
   std::unique_ptr<HashLog> hashes;
   std::unique_ptr<MapRecorder> maps;
+  std::unique_ptr<ReplayRecorder> replay;
   RunStatus status;
   Stopwatch total, since_checkpoint, since_summary;
   std::size_t summary_bytes = 0;  ///< size of the last summary
@@ -64,6 +66,7 @@ struct Recorder::State {
   void record_arrays();
   void hash_when_due();
   void map_when_due();
+  void replay_when_due();
   void checkpoint(bool force);
   void write_summary(bool with_hash);
   void write_paths();
@@ -91,6 +94,7 @@ void Recorder::State::write_start() {
   write_summary(false);
   write_description();
   write_terrain(session.world(), path("terrain_start.tif"));
+  if (options.replay) replay = std::make_unique<ReplayRecorder>(session, path("replay.jsonl"));
   // The first row is the state before any step.
   sample_when_due();
   record_arrays();
@@ -100,6 +104,7 @@ void Recorder::State::write_start() {
   if (!session.world().description().records.empty())
     maps = std::make_unique<MapRecorder>(session, *folder, sensor_streams(session.world()));
   map_when_due();
+  replay_when_due();
   checkpoint(true);
 }
 
@@ -118,6 +123,7 @@ void Recorder::State::move_out() {
   const std::string lost = folder->directory();
   folder->move_out();
   telemetry.move_to(path("telemetry.csv"));
+  if (replay) replay->move_to(path("replay.jsonl"));
   if (hashes) hashes->move_to(path("hashes.csv"));
   arrays.move_out();
   crash_summary.reset();
@@ -164,9 +170,10 @@ void Recorder::State::draw_when_due() {
     if (due(camera.rate)) cameras.push_back(&camera);
   // Drawing is timed apart: the real-time factor is that of the simulation.
   const Lap lap(status.render_time);
-  pictures.draw(cameras, [&](const scene::Camera& camera, render::Image image) {
+  pictures.draw(cameras, [&](const scene::Camera& camera, const Pose& X_WC, render::Image image) {
     const std::uint64_t number = sim::sample_number(world.steps(), world.dt(), camera.rate);
     picture_files.write(camera, number, std::move(image));
+    if (replay) replay->add_picture(camera.name, number, X_WC);
     ++status.frames;
   });
 }
@@ -192,6 +199,12 @@ void Recorder::State::map_when_due() {
   maps->observe();
 }
 
+void Recorder::State::replay_when_due() {
+  if (!replay) return;
+  const Lap lap(status.record_time);
+  replay->observe();
+}
+
 void Recorder::State::checkpoint(bool force) {
   // Wall time of the simulation only.
   status.wall_time = total.seconds() - status.render_time - status.record_time;
@@ -203,6 +216,7 @@ void Recorder::State::checkpoint(bool force) {
   // Checkpoints come at least two seconds apart, except for the last.
   telemetry.checkpoint(force);
   arrays.checkpoint(force);
+  if (replay) replay->checkpoint(force);
   // Only the first and the last summary contain the hash, which costs a pass over the state.
   if (force || since_summary.seconds() >= rewrite_period(summary_bytes)) write_summary(force);
   // The interval counts from the end of writing, or a slow disk would be busy all the time.
@@ -226,6 +240,7 @@ void Recorder::observe() {
   state_->draw_when_due();
   state_->hash_when_due();
   state_->map_when_due();
+  state_->replay_when_due();
   state_->checkpoint(false);
 }
 
@@ -234,6 +249,7 @@ void Recorder::restart() {
   const Lap lap(s.status.record_time);
   s.arrays.restart();
   s.picture_files.restart();
+  if (s.replay) s.replay->restart();
   if (!s.maps) return;
   s.maps->restart();
   s.maps->observe();
@@ -283,6 +299,11 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
   attempt([&] { s.telemetry.checkpoint(true); });
   attempt([&] { s.arrays.checkpoint(true); });
+  attempt([&] {
+    if (!s.replay) return;
+    s.replay->finish();
+    s.replay->checkpoint(true);
+  });
   attempt([&] { s.write_paths(); });
   std::string text;
   bool written = false;

@@ -24,6 +24,8 @@ struct Options {
   std::string directory;
   /// If true, pictures are drawn at the rates of the scene's cameras.
   bool render = true;
+  /// If true, replay.jsonl is written, from which `navvy report` shows the run again.
+  bool replay = true;
   /// Form in which pictures are written.
   PictureFormat picture_format = PictureFormat::kAuto;
   /// Interval of simulated time between two rows of hashes.csv [s]; 0 means that the file is not
@@ -47,11 +49,12 @@ double wall_time_left(double simulated, double real_time_factor);
 ///
 /// It writes scene.sdf and run.json (run_info.h), summary.json, telemetry.csv, terrain_start.tif
 /// and terrain_end.tif. The summary contains the hash of the state only at the start and at the end
-/// of the run. On request it also writes hashes.csv, pictures in frames/ (picture_files.h), each
-/// array output as arrays/<name>.npy (array_recorder.h), and the maps and bags that the scene asks
-/// for (map_recorder.h). If operators have planned paths, it writes paths.csv, and after a failure
-/// failed.snapshot. The memory use does not grow with the run. Not thread-safe; pictures are drawn
-/// on the calling thread and encoded on another one.
+/// of the run. replay.jsonl (replay_recorder.h) shows it again. On request it also writes
+/// hashes.csv, pictures in frames/ (picture_files.h), each array output as arrays/<name>.npy
+/// (array_recorder.h), and the maps and bags that the scene asks for (map_recorder.h). If operators
+/// have planned paths, it writes paths.csv, and after a failure failed.snapshot. The memory use
+/// does not grow with the run. Not thread-safe; pictures are drawn on the calling thread and
+/// encoded on another one.
 class Recorder {
  public:
   /// Creates the folder and writes the files for the start of the run. `folder` is a run folder

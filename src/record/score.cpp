@@ -17,6 +17,8 @@ namespace {
 
 /// Cycles whose machine has moved by more than this began another station [m].
 constexpr double kSameStation = 0.5;
+// Change of a column that counts as none, as a share of a cell: that of measure_earthwork.
+constexpr double kRut = 0.05;
 
 /// Returns the loose density of the dug soil, as a mean of the soils by their dug mass [kg/m3].
 double loose_density(const std::vector<scene::Soil>& soils, const Earthwork& earth) {
@@ -100,19 +102,28 @@ double work_time(const session::Session& session) {
   return any ? end : session.world().time();
 }
 
-/// Adds the masses of all changed columns to their areas, and compares them with the ledger.
-void add_masses(const session::Session& session, const sim::ActivePlaces& active, Score& out) {
+/// Adds the masses of all changed columns, and the volumes of ruts, to their areas, and compares the
+/// masses with the ledger.
+void add_masses(const session::Session& session, const heightfield::Terrain& surface,
+                const sim::ActivePlaces& active, Score& out) {
   const sim::World& world = session.world();
   const heightfield::DesignSurface* design = session.design();
   const std::size_t soils = world.ground().setup().soils.size();
   std::vector<std::int64_t> sum(soils, 0);
+  const double square = surface.cell() * surface.cell();
   for_each_changed_column(world, active.on_ground, [&](const ColumnChange& column) {
     AreaScore& area =
         design != nullptr && has_design(*design, column.ix, column.iy) ? out.inside : out.outside;
+    double volume = 0;  // gained, in bank state
     for (std::size_t i = 0; i < soils; ++i) {
       sum[i] += column.gain[i];
       (column.gain[i] < 0 ? area.lost : area.gained) += std::abs(column.gain[i]);
+      volume += kilograms(column.gain[i]) / world.ground().setup().soils[i].bank_density;
     }
+    if (std::abs(volume) > kRut * square * surface.cell()) return;
+    const double rise =
+        surface.height(column.ix, column.iy) - surface.start_height(column.ix, column.iy);
+    (rise < 0 ? area.rut_cut : area.rut_fill) += std::abs(rise) * square;
   });
   // Soil that columns lost is in tools, in the air or beyond the border; nothing else may be.
   const sim::MassLedger ledger = world.soil().mass_ledger();
@@ -165,7 +176,7 @@ Score measure_score(const session::Session& session, const sim::ActivePlaces& ac
   add_volumes(surface, changed_rect(world.ground(), active.on_ground), design, out.inside,
               out.outside);
   if (design != nullptr) out.shape = measure_shape(surface, *design);
-  add_masses(session, active, out);
+  add_masses(session, surface, active, out);
   out.bank_volume = earth.bank_volume;
   for (const session::Cycle& one : session.cycles()) out.moved += one.payload_dump;
   out.work_time = work_time(session);

@@ -59,6 +59,9 @@ struct MachineScore {
 struct AreaScore {
   /// Volumes by height: where the ground is lower, and where it is higher than at the start [m3].
   double cut = 0, fill = 0;
+  /// The parts of these volumes in columns whose mass has changed by less than a twentieth of a
+  /// cell: ruts of wheels, and soil that was pressed or pushed up [m3].
+  double rut_cut = 0, rut_fill = 0;
   /// Sums over the columns that lost, and over those that gained mass [kMassQuantum].
   std::int64_t lost = 0, gained = 0;
 };

@@ -24,6 +24,8 @@ void add(json& out, const std::string& name, const std::string& unit, const Spre
 json area_json(const AreaScore& area) {
   return {{"cut_m3", area.cut},
           {"fill_m3", area.fill},
+          {"rut_cut_m3", area.rut_cut},
+          {"rut_fill_m3", area.rut_fill},
           {"lost_kg", kilograms(area.lost)},
           {"gained_kg", kilograms(area.gained)}};
 }

@@ -151,6 +151,7 @@ void Simulation::State::start_recording(std::unique_ptr<record::RunFolder> folde
   out.directory = folder->directory();
   out.render = world().description().recording.render;
   out.picture_format = options.picture_format;
+  out.replay = options.replay;
   out.hash_every = options.hash_every;
   out.scene_text = options.scene_text;
   out.command = options.command;

@@ -55,6 +55,8 @@ struct SimulationOptions {
   /// Output folder (record/recorder.h). Empty: no file is written. Results of an earlier run in the
   /// folder are moved to "<folder>.previous".
   std::string folder;
+  /// True to write replay.jsonl, from which `navvy report` shows the run again.
+  bool replay = true;
   /// Simulated time between two rows of hashes.csv [s]; 0: the file is not written.
   double hash_every = 0;
   /// Text that is recorded as scene.sdf: the scene with all changes, as scene_io::load_scene
