@@ -24,8 +24,10 @@ BASE = " ".join(
         "libcli11-dev libspdlog-dev nlohmann-json3-dev",
         # bags for ROS 2
         "libfastcdr-dev libsqlite3-dev",
-        # NPZ archives
-        "libzip-dev",
+        # NPZ archives; data of pages
+        "libzip-dev zlib1g-dev",
+        # pages of runs
+        "libjs-three libjs-dygraphs",
         # paths of go_to
         "libompl-dev",
         # tests, tables of docs/validation.md

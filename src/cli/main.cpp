@@ -153,6 +153,7 @@ int run(int argc, char** argv) {
   cli::add_check(app, action);
   cli::add_score(app, action);
   cli::add_compare(app, action);
+  cli::add_report(app, action);
   cli::add_import(app, action);
   cli::add_map(app, action);
   cli::add_devices(app, action);

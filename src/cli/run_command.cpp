@@ -19,6 +19,7 @@
 #include "link/control_stdio.h"
 #include "link/published_map.h"
 #include "link/sensor_publisher.h"
+#include "report/page.h"
 #include "run/simulation.h"
 #include "run/start_checks.h"
 #include "run/stop_signals.h"
@@ -170,6 +171,19 @@ void print_pictures(std::FILE* out, const run::RunEnd& end) {
       100 * end.encoding_time / end.wall_time);
 }
 
+/// Makes the page of the run beside its results. A run does not fail for want of a page.
+void write_page(const RunOptions& options, std::FILE* out) {
+  const std::string& folder = options.simulation.folder;
+  if (!options.simulation.replay) return;
+  const std::string file = folder + "/" + report::kPageName;
+  try {
+    report::write_page({folder}, file);
+    std::fprintf(out, "report: %s\n", printable(file).c_str());
+  } catch (const std::exception& error) {
+    log(LogLevel::kWarning, std::string("no report of the run: ") + error.what());
+  }
+}
+
 /// Prints how the run ended; returns the exit status.
 int print_end(const RunOptions& options, const session::Session& session, const run::RunEnd& end) {
   // Standard output belongs to the controller where there is one.
@@ -184,6 +198,7 @@ int print_end(const RunOptions& options, const session::Session& session, const 
     print_programs(out, session);
   if (!options.quiet) print_pictures(out, end);
   std::fprintf(out, "results: %s/summary.json\n", printable(options.simulation.folder).c_str());
+  write_page(options, out);
   if (end.reason == run::EndReason::kInterrupted) return kInterrupted;
   if (end.reason == run::EndReason::kForbidden) return kForbidden;
   if (end.reason == run::EndReason::kMissedGoal) return kMissedGoal;
@@ -226,7 +241,15 @@ int run_scene(RunOptions options) {
     simulation.fail(error.what());
     throw;
   }
-  return print_end(options, simulation.session(), drive(options, simulation, program));
+  run::RunEnd end;
+  try {
+    end = drive(options, simulation, program);
+  } catch (const std::exception&) {
+    // The page of a run that broke shows its last frames.
+    write_page(options, stderr);
+    throw;
+  }
+  return print_end(options, simulation.session(), end);
 }
 
 }  // namespace
@@ -304,6 +327,9 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   command->add_flag("--energy", options->simulation.soil_energy,
                     "report the energy account of the soil in the summary; takes up to three times "
                     "as long");
+  command->add_flag(
+      "--no-report{false}", options->simulation.replay,
+      "write neither replay.jsonl nor report.html, the page that shows the run again");
   command->add_flag("--quiet", options->quiet, "print no progress line and no notes");
   command->footer(
       "Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
