@@ -37,6 +37,7 @@ struct RunOptions {
   // Address at which readings of sensors are published; empty if they are not.
   std::string publish_sensors;
   bool quiet = false;
+  bool no_report = false;
 };
 
 /// Shows progress in one line on a terminal, rewritten twice a second. Shows nothing when stderr is
@@ -174,7 +175,7 @@ void print_pictures(std::FILE* out, const run::RunEnd& end) {
 /// Makes the page of the run beside its results. A run does not fail for want of a page.
 void write_page(const RunOptions& options, std::FILE* out) {
   const std::string& folder = options.simulation.folder;
-  if (!options.simulation.replay) return;
+  if (options.no_report) return;
   const std::string file = folder + "/" + report::kPageName;
   try {
     report::write_page({folder}, file);
@@ -227,6 +228,7 @@ int run_scene(RunOptions options) {
   scene::Scene scene = load(options, wanted.scene_text);
   if (wanted.folder.empty()) wanted.folder = default_out(scene);
   wanted.device = options.scene.device;
+  wanted.replay = !options.no_report;
   if (!options.pictures.empty()) wanted.picture_format = picture_formats().at(options.pictures);
   if (!options.control.empty()) wanted.control_rate = options.control_rate;
   if (!options.quiet) wanted.note = log_info;
@@ -328,7 +330,7 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
                     "report the energy account of the soil in the summary; takes up to three times "
                     "as long");
   command->add_flag(
-      "--no-report{false}", options->simulation.replay,
+      "--no-report", options->no_report,
       "write neither replay.jsonl nor report.html, the page that shows the run again");
   command->add_flag("--quiet", options->quiet, "print no progress line and no notes");
   command->footer(

@@ -7,7 +7,7 @@
 namespace navvy::record {
 namespace {
 
-constexpr int kLargest = 30000;  // numbers at the start, which leaves room for spoil and pits
+constexpr int kLargest = 30000;  // numbers at the start; spoil and pits take more
 
 /// Returns the window of at most ReplayHeights::kMost columns about `middle`.
 heightfield::CellRect window_about(const heightfield::Terrain& site, const Vec2& middle) {

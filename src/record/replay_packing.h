@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of a replay as JSON.
+// Values of a replay as text and JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,10 +19,6 @@ std::string packed(const std::vector<T>& values) {
 }
 
 /// Returns the position [m] and the quaternion w, x, y, z of a pose.
-inline nlohmann::json json_of(const Pose& pose) {
-  const Vec3 p = pose.translation();
-  const Eigen::Quaterniond q(pose.linear());
-  return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
-}
+nlohmann::json json_of(const Pose& pose);
 
 }  // namespace navvy::record

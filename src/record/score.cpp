@@ -102,8 +102,8 @@ double work_time(const session::Session& session) {
   return any ? end : session.world().time();
 }
 
-/// Adds the masses of all changed columns, and the volumes of ruts, to their areas, and compares the
-/// masses with the ledger.
+/// Adds the masses of all changed columns, and the volumes of ruts, to their areas, and compares
+/// the masses with the ledger.
 void add_masses(const session::Session& session, const heightfield::Terrain& surface,
                 const sim::ActivePlaces& active, Score& out) {
   const sim::World& world = session.world();

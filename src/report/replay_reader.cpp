@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -161,13 +162,13 @@ std::size_t count_frames(const std::string& file) {
   return out;
 }
 
-Replay read_replay(const std::string& file, std::size_t every) {
+ReplayCounts read_replay(const std::string& file, std::size_t every, json& run) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read '" + file + "'");
   std::string row;
   if (!next_row(in, row)) refuse(file, "has no header");
-  Replay out;
-  const Counts counts = take_header(file, json::parse(row, nullptr, false), out.members);
+  ReplayCounts out;
+  const Counts counts = take_header(file, json::parse(row, nullptr, false), run);
   Frames frames;
   std::optional<Frame> last;
   while (next_row(in, row)) {
@@ -183,7 +184,7 @@ Replay read_replay(const std::string& file, std::size_t every) {
     last = taken ? std::nullopt : std::move(frame);
   }
   if (last) frames.add(*last);
-  out.members["frames"] = frames.members();
+  run["frames"] = frames.members();
   return out;
 }
 

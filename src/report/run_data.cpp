@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 #include <sstream>
@@ -92,11 +93,12 @@ void Reader::read_replay_within(std::size_t most) {
     return;
   }
   std::size_t every = std::max<std::size_t>(1, (frames + kMostFrames - 1) / kMostFrames);
-  Replay replay;
+  json members;
+  ReplayCounts counts;
   try {
     for (;;) {
-      replay = read_replay(file, every);
-      const std::size_t size = replay.members.dump().size();
+      counts = read_replay(file, every, members);
+      const std::size_t size = members.dump().size();
       if (size <= most || every >= frames) break;
       every = std::max(every + 1, static_cast<std::size_t>(std::ceil(
                                       1.05 * static_cast<double>(every) *
@@ -108,12 +110,12 @@ void Reader::read_replay_within(std::size_t most) {
   }
   if (every > 1)
     note("Ground and machines are shown in one of " + std::to_string(every) + " frames out of " +
-         std::to_string(replay.frames) + ", to keep the page small");
-  if (replay.unread > 0)
-    note(std::to_string(replay.unread) + " rows of replay.jsonl could not be read");
-  if (!replay.members["grid"].value("whole_site", true))
+         std::to_string(counts.frames) + ", to keep the page small");
+  if (counts.unread > 0)
+    note(std::to_string(counts.unread) + " rows of replay.jsonl could not be read");
+  if (!members["grid"].value("whole_site", true))
     note("Ground is shown within 2048 columns about the machines");
-  out_.update(replay.members);
+  out_.update(members);
 }
 
 void Reader::read_telemetry_within(std::size_t most) {
@@ -124,14 +126,12 @@ void Reader::read_telemetry_within(std::size_t most) {
     return;
   }
   std::size_t every = std::max<std::size_t>(1, (rows + kMostRows - 1) / kMostRows);
-  TelemetryData data = read_telemetry(file, every);
-  while (data.telemetry.dump().size() > most && every < rows)
-    data = read_telemetry(file, every *= 2);
+  read_telemetry(file, every, out_);
+  while (out_["telemetry"].dump().size() > most && every < rows)
+    read_telemetry(file, every *= 2, out_);
   if (every > 1)
-    note("Charts show one of " + std::to_string(every) + " rows out of " +
-         std::to_string(data.rows) + ", to keep the page small");
-  out_["telemetry"] = std::move(data.telemetry);
-  out_["phases"] = std::move(data.phases);
+    note("Charts show one of " + std::to_string(every) + " rows out of " + std::to_string(rows) +
+         ", to keep the page small");
 }
 
 // Columns: machine, step, plan, when, s, x, y, yaw, direction.

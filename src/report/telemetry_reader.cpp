@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -54,11 +55,12 @@ std::size_t count_rows(const std::string& file) {
   return out;
 }
 
-TelemetryData read_telemetry(const std::string& file, std::size_t every) {
-  TelemetryData out;
+void read_telemetry(const std::string& file, std::size_t every, json& run) {
+  run["telemetry"] = nullptr;
+  run["phases"] = json::array();
   std::ifstream in(file, std::ios::binary);
   std::string row;
-  if (!next_row(in, row)) return out;
+  if (!next_row(in, row)) return;
   const std::vector<std::string> header = split(row);
   json names = json::array(), units = json::array();
   std::vector<Spans> phases;
@@ -77,23 +79,22 @@ TelemetryData read_telemetry(const std::string& file, std::size_t every) {
     ++numbers;
   }
   std::vector<float> values;
-  std::size_t kept = 0;
+  std::size_t rows = 0, kept = 0;
   while (next_row(in, row)) {
     const std::vector<std::string> cells = split(row);
     if (cells.size() != header.size()) continue;
     const double time = std::strtod(cells[0].c_str(), nullptr);
     for (Spans& one : phases) one.add(cells[one.column], time);
-    if (out.rows++ % every != 0) continue;
+    if (rows++ % every != 0) continue;
     ++kept;
     for (std::size_t i = 0; i < numbers; ++i)
       values.push_back(std::strtof(cells[i].c_str(), nullptr));
   }
   for (Spans& one : phases)
-    out.phases.push_back({{"machine", one.machine}, {"spans", std::move(one.list)}});
+    run["phases"].push_back({{"machine", one.machine}, {"spans", std::move(one.list)}});
   if (kept > 0)
-    out.telemetry = {
+    run["telemetry"] = {
         {"names", names}, {"units", units}, {"rows", kept}, {"values", packed(values)}};
-  return out;
 }
 
 }  // namespace navvy::report

@@ -3,23 +3,17 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace navvy::report {
 
-/// The parts of a page that telemetry.csv gives.
-struct TelemetryData {
-  nlohmann::json telemetry;  ///< names, units, number of rows and values; null without rows
-  nlohmann::json phases = nlohmann::json::array();  ///< spans of the phases of each machine
-  std::size_t rows = 0;                             ///< rows in the file
-};
-
 /// Returns the number of rows in the file without its header; 0 if there is no such file.
 std::size_t count_rows(const std::string& file);
 
-/// Returns every row whose number is a multiple of `every`, and the phases of all rows. A row that
-/// does not fit the header is left out, such as the one that a kill cuts off.
-TelemetryData read_telemetry(const std::string& file, std::size_t every);
+/// Sets the members `telemetry` and `phases` of a page's run: every row whose number is a multiple
+/// of `every`, and the phases of all rows. A row that does not fit the header is left out, such as
+/// the one that a kill cuts off.
+void read_telemetry(const std::string& file, std::size_t every, nlohmann::json& run);
 
 }  // namespace navvy::report
