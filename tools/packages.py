@@ -16,7 +16,7 @@ BASE = " ".join(
         "ocl-icd-opencl-dev opencl-headers pocl-opencl-icd",
         # simulation and its files
         "libeigen3-dev libbullet-dev libsdformat-dev libtinyxml2-dev libgdal-dev",
-        # pictures
+        # pictures; maps in PNG files
         "libcoin-dev libosmesa6-dev libpng-dev",
         # meshes
         "libtinyobjloader-dev libassimp-dev",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes NumPy's NPY format, version 1.0. (heightfield/npy.h reads it.)
+// Writes NumPy's NPY format, version 1.0. (heightfield/map_files/npy.h reads it.)
 #pragma once
 
 #include <cstdint>

@@ -11,10 +11,8 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "heightfield/map_files/import_design.h"
 #include "heightfield/span_text.h"
-#ifdef NAVVY_WITH_GDAL
-#include "heightfield/gdal/import_design.h"
-#endif
 
 namespace navvy::heightfield {
 namespace {
@@ -333,12 +331,7 @@ std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrai
   if (!design.any()) return std::nullopt;
   if (design.tin) return of_tin(*design.tin, site);
   if (design.file.empty()) return of_areas(design.areas, scene.file, site);
-#ifdef NAVVY_WITH_GDAL
-  return import_design(design, site);
-#else
-  fail(design.file, 0, "", "this build reads no raster files",
-       "build with -DNAVVY_WITH_GDAL=ON, or use LandXML or areas");
-#endif
+  return import_design(scene, design, site);
 }
 
 // One pass over the columns with a design; columns without one do not count.

@@ -10,11 +10,9 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/long_work.h"
+#include "heightfield/map_files/import.h"
 #include "heightfield/procedural.h"
 #include "heightfield/settle.h"
-#ifdef NAVVY_WITH_GDAL
-#include "heightfield/gdal/import.h"
-#endif
 
 namespace navvy::heightfield {
 namespace {
@@ -132,15 +130,9 @@ Ground make_ground(const scene::Scene& world, std::string* report) {
     make_procedural(world, setup);
     if (report != nullptr) report->clear();
   } else {
-#ifdef NAVVY_WITH_GDAL
     const TerrainReport found = import_terrain(world, setup);
     if (const std::string warning = found.warning(); !warning.empty()) log_warning(warning);
     if (report != nullptr) *report = found.text();
-#else
-    fail(world, "terrain/file", ground.file, "this build reads no terrain files",
-         "build with -DNAVVY_WITH_GDAL=ON (Debian package libgdal-dev) or describe the ground by "
-         "shapes");
-#endif
   }
   // Done last, because it needs the finished surface.
   if (ground.steep == scene::SteepGround::kSettle) settle_site(world, setup);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "heightfield/npy.h"
+#include "heightfield/map_files/npy.h"
 #include "target.h"
 
 NAVVY_FUZZ_TARGET(npy) {

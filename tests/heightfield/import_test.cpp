@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifdef NAVVY_WITH_GDAL
-#include "heightfield/gdal/import.h"
+#include "heightfield/map_files/import.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "heightfield/npy.h"
+#include "heightfield/map_files/npy.h"
 
 #include <gtest/gtest.h>
 
@@ -85,7 +85,6 @@ TEST(Npy, RefusesOtherArraysWithFileKeyValueAndRemedy) {
   expect("", {"byte 0"});
 }
 
-#ifdef NAVVY_WITH_GDAL
 // Heights without symmetry on a grid that is not square.
 double asymmetric(int column, int row) {
   return 3 + 0.25 * column + 1.5 * row + 0.125 * ((column * row * 5) % 7);
@@ -143,6 +142,7 @@ TEST(Npy, NeedsACellSizeAndRecognisesGaps) {
   EXPECT_THROW(make_ground(world), InputError);
 }
 
+#ifdef NAVVY_WITH_GDAL
 TEST(Png, OfSixteenBitsSpansHeightsFromBlackToWhite) {
   if (!testing::has_tool("gdal_translate")) GTEST_SKIP() << "gdal_translate (gdal-bin) is missing";
   const std::string dir = folder();

@@ -16,7 +16,7 @@
 #include "heightfield/maps.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
-#include "heightfield/gdal/import.h"
+#include "heightfield/map_files/import.h"
 #endif
 
 namespace navvy::heightfield {

@@ -8,6 +8,7 @@ import pickle
 import tempfile
 import unittest
 
+import map_sites
 import navvy
 from navvy import _navvy
 
@@ -66,6 +67,10 @@ class Scenes(unittest.TestCase):
         self.assertIn("size_m", fault.element)
         self.assertIn(str(path) + ":3", str(caught.exception))
         self.assertIsInstance(caught.exception, ValueError)
+
+    def test_maps_of_every_format_without_gdal_give_one_ground(self):
+        with tempfile.TemporaryDirectory() as folder:
+            map_sites.check_sites(navvy, folder)
 
     def test_unknown_scenes_are_refused_with_a_suggestion(self):
         with self.assertRaisesRegex(navvy.InputError, "trench"):

@@ -12,8 +12,12 @@ import time
 BEGUN = time.perf_counter()
 import navvy  # noqa: E402
 
+# Python's isolated mode leaves out the folder of the script.
+sys.path.append(str(pathlib.Path(__file__).parent))
+import map_sites  # noqa: E402
+
 # Of these the wheel must bring its own.
-FOREIGN = "Bullet|sdformat|ignition|tinyxml|urdf|console_bridge|tinyobj|gdal|Coin|OpenCL|ompl"
+FOREIGN = "Bullet|sdformat|ignition|tinyxml|urdf|console_bridge|tinyobj|gdal|Coin|OpenCL|ompl|png"
 
 
 def foreign_libraries():
@@ -24,22 +28,30 @@ def foreign_libraries():
     return sorted(path for path in names if not path.startswith(sys.prefix))
 
 
+def refuse_geotiff(folder):
+    """Raises AssertionError unless a GeoTIFF is refused with its scene and a remedy."""
+    (folder / "site.tif").write_bytes(b"II*\0" + bytes(100))
+    scene = folder / "site.sdf"
+    scene.write_text(map_sites.SCENE % ("site.tif", ""))
+    try:
+        navvy.World(navvy.Scene(scene))
+    except navvy.InputError as error:
+        fault = error.faults[0]
+        assert fault.file == str(scene), error
+        assert "site.tif" in fault.value and "gdal_translate" in fault.remedy, error
+        assert "libgdal" in fault.remedy, error
+    else:
+        raise AssertionError("a GeoTIFF was read without GDAL")
+
+
 def main():
     assert navvy.__file__.startswith(sys.prefix), navvy.__file__
     assert not foreign_libraries(), foreign_libraries()
     assert "trench" in navvy.scenes(), navvy.scenes()
     scene = navvy.Scene("trench")
     with tempfile.TemporaryDirectory() as folder:
-        map_file = pathlib.Path(folder) / "site.tif"
-        map_file.write_bytes(b"II*\0" + bytes(100))
-        try:
-            other = navvy.Scene("paper/excavator")
-            other.update({"ground.file": str(map_file)})
-            navvy.World(other)
-        except navvy.InputError as error:
-            assert "libgdal" in str(error), error
-        else:
-            raise AssertionError("a GeoTIFF was read without GDAL")
+        map_sites.check_sites(navvy, folder)
+        refuse_geotiff(pathlib.Path(folder))
     # Beside its trench, so that the first scoop comes at once.
     scene.machine["excavator"].pose = (-4, 0, 0, 0, 0, 0)
     world = navvy.Session(scene)

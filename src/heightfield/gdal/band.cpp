@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "heightfield/gdal/beside.h"
 #include "heightfield/gdal/gdal_session.h"
+#include "heightfield/map_files/beside.h"
 
 namespace navvy::heightfield {
 

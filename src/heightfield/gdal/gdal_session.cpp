@@ -7,12 +7,10 @@
 
 #include <mutex>
 
+#include "heightfield/map_files/raster_source.h"
+
 namespace navvy::heightfield {
 namespace {
-
-// Size of the cache of decoded blocks. By default it is a twentieth of the memory of the machine,
-// but the cost of a map, and whether it is refused, must not depend on that.
-constexpr GIntBig kCacheBytes = GIntBig{512} << 20;
 
 void CPL_STDCALL collect(CPLErr severity, CPLErrorNum /*number*/, const char* message) {
   // Warnings concern files that were read all the same.
@@ -28,7 +26,7 @@ GdalSession::GdalSession() {
   static std::once_flag once;
   std::call_once(once, [] {
     GDALAllRegister();
-    GDALSetCacheMax64(kCacheBytes);
+    GDALSetCacheMax64(kBlockCacheBytes);
   });
 }
 

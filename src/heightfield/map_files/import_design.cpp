@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coordinates are those of the site: a design in another CRS would be misplaced, so it is refused.
-#include "heightfield/gdal/import_design.h"
-
-#include <ogr_spatialref.h>
+#include "heightfield/map_files/import_design.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "heightfield/gdal/map_file_private.h"
+#include "heightfield/map_files/map_file.h"
 #include "heightfield/span_text.h"
+#ifdef NAVVY_WITH_GDAL
+#include "heightfield/gdal/gdal_raster.h"
+#endif
 
 namespace navvy::heightfield {
 namespace {
@@ -31,14 +32,13 @@ void require_same_crs(const MapFile& map, const GroundSetup& setup) {
     map.fail(
         "CRS", name_of(map.crs_wkt), "the site has no CRS, so the two cannot be laid together",
         "give the ground's map its CRS too, or take this file's away: " + map.edit("-a_srs \"\""));
-  OGRSpatialReference a, b;
-  a.importFromWkt(map.crs_wkt.c_str());
-  b.importFromWkt(setup.crs_wkt.c_str());
-  a.StripVertical();
-  b.StripVertical();
-  const char* const options[] = {"IGNORE_COORDINATE_EPOCH=YES",
-                                 "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
-  if (a.IsSame(&b, options) == 0)
+#ifdef NAVVY_WITH_GDAL
+  const bool same = same_crs(map.crs_wkt, setup.crs_wkt);
+#else
+  // Without GDAL nothing knows that two texts mean the same.
+  const bool same = map.crs_wkt == setup.crs_wkt;
+#endif
+  if (!same)
     map.fail("CRS", name_of(map.crs_wkt), "the site's map is in " + name_of(setup.crs_wkt),
              "reproject it: gdalwarp -t_srs EPSG:CODE IN OUT.tif, with the code of the site's CRS");
 }
@@ -56,11 +56,12 @@ double sample(const HeightRaster& raster, const Vec2& p, double edge) {
 
 }  // namespace
 
-DesignSurface import_design(const scene::Design& design, const Terrain& site) {
+DesignSurface import_design(const scene::Scene& scene, const scene::Design& design,
+                            const Terrain& site) {
   const GroundSetup& setup = site.setup();
   scene::RasterScale scale = design.scale;
   if (!scale.has_corner) scale.corner = Vec2(setup.easting, setup.northing);
-  MapFile map(design.file, scale, "navvy:design");
+  MapFile map({design.file, "navvy:design", scene.file, 0}, scale);
   require_same_crs(map, setup);
   // Corner of the site in metres from that of the map.
   const TerrainReport& report = map.report;

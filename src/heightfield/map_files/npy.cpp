@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The header is a Python dictionary as text: its three keys are found by name, and nothing is
 // evaluated.
-#include "heightfield/npy.h"
+#include "heightfield/map_files/npy.h"
 
 #include <array>
 #include <charconv>

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// An open raster file with its georeference, units and gaps. Shared by the readers of terrain and
-// of design surfaces.
+// An open map with its georeference, units and gaps. Shared by the readers of terrain and of design
+// surfaces.
 #pragma once
-
-#include <gdal_priv.h>
 
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "heightfield/gdal/gdal_session.h"
-#include "heightfield/gdal/import.h"
+#include "heightfield/map_files/import.h"
+#include "heightfield/map_files/raster_source.h"
 #include "heightfield/raster.h"
 #include "heightfield/windowed_raster.h"
 #include "scene/ground.h"
@@ -20,50 +17,40 @@ namespace navvy::heightfield {
 
 /// An open raster file of heights. Problems that do not prevent its use are noted in `report`.
 struct MapFile {
-  /// Opens `file` and reads georeference, CRS and units.
-  /// @param scale resolution and position for files that have none of their own
-  /// @param element name of the scene element in error messages: "terrain" or "design"
+  /// Opens a file and reads georeference, CRS and units.
+  /// @param how_scaled resolution and position for files that have none of their own
   /// @throws InputError naming file, value, rule and remedy.
-  MapFile(const std::string& file, const scene::RasterScale& scale, const std::string& element);
+  MapFile(const MapName& map, const scene::RasterScale& how_scaled,
+          MapReader reader = MapReader::kBuild);
 
-  /// Path of the file, and name of its scene element in error messages.
-  std::string file, element;
+  /// File, and the places that messages name.
+  MapName name;
   /// Resolution and position from the scene, for files that have none of their own.
   scene::RasterScale scale;
-  /// Array of an NPY file. GDAL has no driver for NPY, so `data` is a dataset on this memory.
-  std::vector<char> numbers;
-  /// Collects GDAL's error messages. Declared before `data`, because closing the dataset may report
-  /// errors.
-  GdalSession session;
-  /// The open file as a GDAL dataset; null after read_windows moved it out.
-  std::unique_ptr<GDALDataset> data;
-  /// First band of the file, which contains the heights.
-  GDALRasterBand* band = nullptr;
+  /// Properties that the file declares.
+  RasterHeader header;
+  /// Numbers of the file; null after read_windows moved it out.
+  std::unique_ptr<RasterSource> source;
   /// Properties and problems found so far.
   TerrainReport report;
-  /// CRS of the file as WKT2; empty if it has none.
+  /// CRS of the file as WKT, WKT2 from GDAL; empty if it has none.
   std::string crs_wkt;
-  /// True if the file has coordinates of its own.
-  bool georeferenced = false;
   /// Lower-left corner of the map (x_min, y_min) and edge lengths of a cell (step_x, step_y), in
   /// file units.
   double x_min = 0, y_min = 0, step_x = 1, step_y = 1;
   /// True if x decreases with the column index (`columns_fall`), and if y decreases with the row
   /// index (`rows_fall`).
   bool columns_fall = false, rows_fall = true;
-  /// Size of a storage block of the file, in cells.
-  int block_x = 1, block_y = 1;
-  /// Size of a decoded storage block [bytes].
-  double block_bytes = 0;
 
   /// Returns a shell command that changes the metadata of the file with the gdal_edit.py option
   /// `option`. Files in other formats than GeoTIFF are converted to GeoTIFF first, because
   /// gdal_edit.py can write only that.
   std::string edit(const std::string& option) const;
-  /// Throws an InputError about `part` of the file, with the offending value, the violated rule and
-  /// a remedy.
+  /// Throws as MapName::fail.
   [[noreturn]] void fail(const std::string& part, const std::string& value, const std::string& rule,
-                         const std::string& remedy) const;
+                         const std::string& remedy) const {
+    name.fail(part, value, rule, remedy);
+  }
 };
 
 /// Returns `value` formatted with the printf format `format`, for messages.
@@ -82,7 +69,7 @@ HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size);
 std::int64_t cells_under(const MapFile& map, const Vec2& corner, const Vec2& size);
 /// Returns the heights of the same cells as read_heights, for a map of any size and with its gaps
 /// filled. The file is read completely once, and after that in windows of `side` x `side` cells on
-/// demand. Moves the open file out of `map`.
+/// demand. Moves the numbers out of `map`.
 /// @throws InputError as read_heights. Also for a large image file, whose windows would each need
 /// decoding from its beginning, and for more gaps than fit in memory.
 std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner,

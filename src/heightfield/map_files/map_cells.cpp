@@ -8,8 +8,7 @@
 
 #include "core/error.h"
 #include "core/limits.h"
-#include "heightfield/ascii_words.h"
-#include "heightfield/gdal/map_file_private.h"
+#include "heightfield/map_files/map_file.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -19,8 +18,6 @@ constexpr int kMargin = 2;
 // No ground is above or below this; such a number is an undeclared nodata value [m].
 constexpr double kHighest = 12000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-bool is_png(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "PNG"); }
 
 /// Detects heights that are whole numbers of a unit only: a staircase, unless all are equal.
 class Staircase {
@@ -62,21 +59,18 @@ void note_staircase(MapFile& map, const std::string& unit, double metres) {
 class Decoder {
  public:
   explicit Decoder(MapFile& map) {
-    int has = 0;
-    const double value = map.band->GetNoDataValue(&has);
-    if (has != 0) nodata_ = static_cast<float>(value);
-    has_nodata_ = has != 0;
-    map.report.nodata_value = has != 0 ? "declared as " + number_text(value) : "none declared";
-    // GDAL does not apply scale and offset itself.
-    const double scale = map.band->GetScale(&has);
-    if (has != 0 && std::isfinite(scale) && scale != 0) scale_ = scale;
-    const double offset = map.band->GetOffset(&has);
-    if (has != 0 && std::isfinite(offset)) offset_ = offset;
+    const RasterHeader& header = map.header;
+    if (header.nodata) nodata_ = static_cast<float>(*header.nodata);
+    has_nodata_ = header.nodata.has_value();
+    map.report.nodata_value =
+        header.nodata ? "declared as " + number_text(*header.nodata) : "none declared";
+    // Readers do not apply scale and offset themselves.
+    if (header.scale && std::isfinite(*header.scale) && *header.scale != 0) scale_ = *header.scale;
+    if (header.offset && std::isfinite(*header.offset)) offset_ = *header.offset;
     // Black and white of a picture.
     if (map.scale.has_heights) {
       offset_ = map.scale.low;
-      scale_ = (map.scale.high - map.scale.low) /
-               (map.band->GetRasterDataType() == GDT_Byte ? 255 : 65535);
+      scale_ = (map.scale.high - map.scale.low) / (header.has_bytes ? 255 : 65535);
     }
     metres_ = map.report.height_metres;
   }
@@ -101,29 +95,14 @@ class Decoder {
   double scale_ = 1, offset_ = 0, metres_ = 1;
 };
 
-/// Reads an ESRI ASCII map in the order of its rows up to the last one needed. GDAL finds the start
-/// of a row by reading those before it, and continues after a row that fails: for the last row of a
-/// truncated file it tries 2^rows times.
-void find_rows(MapFile& map, int last_row) {
-  if (std::string(map.data->GetDriver()->GetDescription()) != "AAIGrid") return;
-  check_words(map.file, (static_cast<std::int64_t>(last_row) + 1) * map.report.columns);
-  for (int row = 0; row <= last_row; ++row) {
-    double value = 0;
-    if (map.band->RasterIO(GF_Read, 0, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr) !=
-        CE_None)
-      map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"),
-               "the file is damaged: get it again");
-  }
-}
-
 /// A few bytes may decode to gigabytes, and blocks that do not fit into the cache of GDAL together
 /// are decoded again for every row.
 void check_blocks(const MapFile& map, int x0, int x1, int y0, int y1) {
-  const int blocks_x = x1 / map.block_x - x0 / map.block_x + 1,
-            blocks_y = y1 / map.block_y - y0 / map.block_y + 2;
+  const int blocks_x = x1 / map.header.block_x - x0 / map.header.block_x + 1,
+            blocks_y = y1 / map.header.block_y - y0 / map.header.block_y + 2;
   const double across = blocks_x, down = blocks_y;
-  const bool cached = across * map.block_bytes <= static_cast<double>(GDALGetCacheMax64());
-  const double decoded = across * (cached ? down : y1 - y0 + 1.0) * map.block_bytes;
+  const bool cached = across * map.header.block_bytes <= static_cast<double>(kBlockCacheBytes);
+  const double decoded = across * (cached ? down : y1 - y0 + 1.0) * map.header.block_bytes;
   if (decoded > limits::kMapDecodedBytes)
     map.fail("", number_text(decoded) + " bytes",
              "more than " + number_text(limits::kMapDecodedBytes) +
@@ -172,22 +151,25 @@ HeightRaster frame_of(const TerrainReport& report, const Cut& cut, const Vec2& c
   return raster;
 }
 
-/// Reads raw numbers of some cells of the cut, counted from its first, x fastest. Returns false
-/// where the file cannot be read.
-bool read_raw(GDALRasterBand& band, const Cut& cut, const CellRect& cells,
-              std::vector<double>& raw) {
+/// Returns cells of the cut, counted from its first, in columns and rows of the file.
+CellRect in_file(const Cut& cut, const CellRect& cells) {
   const int nx = cells.x1 - cells.x0, ny = cells.y1 - cells.y0;
   const int column = cut.columns_fall ? cut.columns - (cut.x0 + cells.x1) : cut.x0 + cells.x0;
   const int row = cut.rows_fall ? cut.rows - (cut.y0 + cells.y1) : cut.y0 + cells.y0;
+  return {column, row, column + nx, row + ny};
+}
+
+/// Reads raw numbers of some cells of the cut, counted from its first, x fastest. @throws RowError
+/// where the file cannot be read.
+void read_raw(RasterSource& source, const Cut& cut, const CellRect& cells,
+              std::vector<double>& raw) {
+  const int nx = cells.x1 - cells.x0, ny = cells.y1 - cells.y0;
   raw.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-  if (band.RasterIO(GF_Read, column, row, nx, ny, raw.data(), nx, ny, GDT_Float64, 0, 0, nullptr) !=
-      CE_None)
-    return false;
+  source.read(in_file(cut, cells), raw.data());
   const auto line = [&](int y) { return raw.begin() + static_cast<std::ptrdiff_t>(y) * nx; };
   for (int y = 0; cut.columns_fall && y < ny; ++y) std::reverse(line(y), line(y + 1));
   for (int y = 0; cut.rows_fall && y < ny / 2; ++y)
     std::swap_ranges(line(y), line(y + 1), line(ny - 1 - y));
-  return true;
 }
 
 /// Collects heights as they come out of the file: counts them, takes their mean, notes oddities.
@@ -263,9 +245,17 @@ class SiteCells {
   TerrainReport& report_;
 };
 
-[[noreturn]] void fail_row(const MapFile& map, int row) {
-  map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"),
-           "the file is damaged: get it again");
+/// Calls `work`, and names the row of a map that cannot be read.
+template <class Work>
+void with_rows_named(const MapFile& map, const Work& work) {
+  try {
+    work();
+  } catch (const RowError& failure) {
+    map.fail("row " + std::to_string(failure.row()), "", failure.what(),
+             "the file is damaged: get it again");
+  } catch (const FileError& failure) {
+    map.fail("", "", failure.what(), "check the path");
+  }
 }
 
 /// A map that stays open and reads cells as heights on demand.
@@ -273,32 +263,20 @@ class OpenMap {
  public:
   /// Takes ownership of the open file.
   OpenMap(MapFile& map, const Cut& cut, const Decoder& decode, double first, double shift)
-      : file_(map.file),
-        element_(map.element),
-        numbers_(std::move(map.numbers)),
-        data_(std::move(map.data)),
-        band_(map.band),
+      : name_(map.name),
+        source_(std::move(map.source)),
         cut_(cut),
         decode_(decode),
         first_(first),
-        shift_(shift) {
-    map.band = nullptr;
-  }
-  ~OpenMap() {
-    // Closing may report failures.
-    const GdalSession session;
-    data_.reset();
-  }
-  OpenMap(const OpenMap&) = delete;
-  OpenMap& operator=(const OpenMap&) = delete;
+        shift_(shift) {}
 
   /// Reads heights as read_heights does. @throws InputError.
   void read(const CellRect& cells, float* out) {
-    const GdalSession session;
-    if (!read_raw(*band_, cut_, cells, raw_))
-      throw InputError(Fault{Fault::Severity::kError, file_, 0, element_, "",
-                             session.cause("cannot be read"),
-                             "the file is damaged or gone: get it again"});
+    try {
+      read_raw(*source_, cut_, cells, raw_);
+    } catch (const FileError& failure) {
+      name_.fail("", "", failure.what(), "the file is damaged or gone: get it again");
+    }
     // Rounded to float before and after the shift, as in a map in memory.
     std::transform(raw_.begin(), raw_.end(), out, [&](double raw) {
       return static_cast<float>(static_cast<float>(decode_(raw) - first_) - shift_);
@@ -306,10 +284,8 @@ class OpenMap {
   }
 
  private:
-  std::string file_, element_;
-  std::vector<char> numbers_;
-  std::unique_ptr<GDALDataset> data_;
-  GDALRasterBand* band_;
+  MapName name_;
+  std::unique_ptr<RasterSource> source_;
   Cut cut_;
   Decoder decode_;
   double first_, shift_;
@@ -338,14 +314,15 @@ HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size) {
   Intake intake(map);
   SiteCells on_site(raster, size, report);
   std::vector<double> line;
-  find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
-  for (int iy = 0; iy < raster.ny; ++iy) {
-    if (!read_raw(*map.band, cut, {0, iy, raster.nx, iy + 1}, line))
-      fail_row(map, map.rows_fall ? report.rows - 1 - (cut.y0 + iy) : cut.y0 + iy);
-    for (int ix = 0; ix < raster.nx; ++ix)
-      if (std::isnan(raster.at(ix, iy) = intake.take(line[static_cast<std::size_t>(ix)])))
-        on_site.gap(ix, iy);
-  }
+  with_rows_named(map, [&] {
+    map.source->prepare(in_file(cut, {0, 0, raster.nx, raster.ny}));
+    for (int iy = 0; iy < raster.ny; ++iy) {
+      read_raw(*map.source, cut, {0, iy, raster.nx, iy + 1}, line);
+      for (int ix = 0; ix < raster.nx; ++ix)
+        if (std::isnan(raster.at(ix, iy) = intake.take(line[static_cast<std::size_t>(ix)])))
+          on_site.gap(ix, iy);
+    }
+  });
   const double shift = intake.shift();
   for (float& z : raster.z) z = static_cast<float>(z - shift);
   report.height_offset = intake.first() + shift;
@@ -359,12 +336,12 @@ std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& cor
   const HeightRaster frame = frame_of(report, cut, corner);
   report.source_cells = static_cast<std::int64_t>(frame.nx) * frame.ny;
   // A picture is decoded from its beginning for every window.
-  if (is_png(map))
+  if (map.header.kind == RasterHeader::Kind::kPicture)
     map.fail("size", std::to_string(frame.nx) + " x " + std::to_string(frame.ny) + " map cells",
              "more than " + number_text(limits::kMapCells) + " cells of a picture under the site",
              "convert it with gdal_translate -of GTiff -co TILED=YES");
   check_blocks(map, cut.x0, cut.x1, cut.y0, cut.y1);
-  find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
+  with_rows_named(map, [&] { map.source->prepare(in_file(cut, {0, 0, frame.nx, frame.ny})); });
   // One pass finds the mean and the gaps; cells are read again when they are needed.
   Intake intake(map);
   SiteCells on_site(frame, size, report);
@@ -372,8 +349,7 @@ std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& cor
   std::vector<double> raw;
   for (int y0 = 0; y0 < frame.ny; y0 += side) {
     const CellRect strip{0, y0, frame.nx, std::min(y0 + side, frame.ny)};
-    if (!read_raw(*map.band, cut, strip, raw))
-      fail_row(map, map.rows_fall ? report.rows - (cut.y0 + strip.y1) : cut.y0 + strip.y0);
+    with_rows_named(map, [&] { read_raw(*map.source, cut, strip, raw); });
     const std::int64_t begin = static_cast<std::int64_t>(y0) * frame.nx;
     for (std::size_t i = 0; i < raw.size(); ++i)
       if (std::isnan(intake.take(raw[i]))) {

@@ -1,84 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps come from many sources, so each step names the fault and the remedy, and notes its
 // assumptions: open, georeference, CRS, unit of heights. Cells: map_cells.cpp.
-#include "heightfield/gdal/map_file_private.h"
-
-#include <cpl_vsi.h>
-#include <ogr_spatialref.h>
+#include "heightfield/map_files/map_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <utility>
+#include <filesystem>
 
 #include "core/error.h"
 #include "core/limits.h"
-#include "heightfield/gdal/beside.h"
-#include "heightfield/npy.h"
+#include "heightfield/map_files/ascii_words.h"
+#include "heightfield/map_files/npy.h"
+#include "heightfield/map_files/plain_rasters.h"
+#ifdef NAVVY_WITH_GDAL
+#include "heightfield/gdal/gdal_raster.h"
+#endif
 
 namespace navvy::heightfield {
 namespace {
+
+using Kind = RasterHeader::Kind;
 
 // Moves a map of any format to its place.
 constexpr const char* kPlaceIt =
     "put it to its place: gdal_translate -a_ullr LEFT TOP RIGHT BOTTOM IN OUT.tif";
 
-/// GDAL has no driver for NPY: the numbers are in memory, and a dataset refers to them.
-void open_npy(MapFile& map) {
-  NpyGrid grid = read_npy(map.file);
-  // In the order of NpyType.
-  static constexpr GDALDataType kTypes[] = {GDT_Float32, GDT_Float64, GDT_Int16,
-                                            GDT_Int32,   GDT_UInt16,  GDT_Byte};
-  const GDALDataType type = kTypes[static_cast<int>(grid.type)];
-  map.numbers = std::move(grid.bytes);
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("MEM");
-  if (driver == nullptr)
-    map.fail("", "", "GDAL was built without its memory driver", "install Debian's libgdal");
-  map.data.reset(driver->Create("", grid.columns, grid.rows, 0, type, nullptr));
-  // GDAL's driver MEM takes the address as text. `numbers` belongs to the map and outlives the
-  // dataset.
-  char pointer[64] = {};
-  CPLPrintPointer(pointer, map.numbers.data(), sizeof pointer - 1);
-  const std::string at = std::string("DATAPOINTER=") + pointer;
-  const char* options[] = {at.c_str(), nullptr};
-  if (!map.data || map.data->AddBand(type, const_cast<char**>(options)) != CE_None)
-    map.fail("", "", map.session.cause("cannot be held in memory"), "give a GeoTIFF");
-  map.report.format = "NumPy NPY";
-  map.report.for_gdal = false;
-}
-
-/// Formats that GDAL has a driver for and that we accept.
-void open_raster(MapFile& map) {
-  std::vector<std::string> beside;
-  try {
-    beside = files_beside(map.file);
-  } catch (const FileError& failure) {
-    map.fail("", "", failure.what(), "move that file away, or replace it");
-  }
-  std::vector<const char*> siblings;
-  siblings.reserve(beside.size() + 1);
-  for (const std::string& name : beside) siblings.push_back(name.c_str());
-  siblings.push_back(nullptr);
-  // Doubles, because the ASCII driver infers integers from the first values.
-  const char* const drivers[] = {"GTiff", "AAIGrid", "PNG", nullptr};
-  const char* const options[] = {"DATATYPE=Float64", nullptr};
-  map.data.reset(GDALDataset::Open(map.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers,
-                                   options, siblings.data()));
-  if (!map.data || map.data->GetRasterCount() < 1)
-    map.fail("", "", map.session.cause("is neither GeoTIFF, ESRI ASCII, PNG nor NPY"),
-             "convert it with gdal_translate -of GTiff");
-  map.report.format = map.data->GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
-}
-
-bool is_png(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "PNG"); }
-bool is_npy(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "MEM"); }
-
 /// Pictures and arrays have neither metres nor coordinates: the scene must give them, and must not
 /// for other files.
 void check_scale(MapFile& map) {
   const scene::RasterScale& scale = map.scale;
-  const bool png = is_png(map), npy = is_npy(map);
-  double transform[6];
+  const bool png = map.header.kind == Kind::kPicture, npy = map.header.kind == Kind::kArray;
   if (!png && !npy) {
     if (scale.any())
       map.fail("", map.report.format,
@@ -87,8 +39,8 @@ void check_scale(MapFile& map) {
     return;
   }
   // Two bands are gray and alpha.
-  if (png && (map.data->GetRasterCount() > 2 || map.band->GetColorTable() != nullptr))
-    map.fail("", std::to_string(map.data->GetRasterCount()) + " bands",
+  if (png && (map.header.bands > 2 || map.header.has_palette))
+    map.fail("", std::to_string(map.header.bands) + " bands",
              "heights are gray, this picture has colours", "save it as 16-bit gray");
   if (png && !scale.has_heights)
     map.fail("heights", "", "a picture has no heights of its own",
@@ -97,73 +49,85 @@ void check_scale(MapFile& map) {
     map.fail("heights", "map_heights_m", "an NPY's numbers are metres", "remove map_heights_m");
   if (png && scale.north_first)
     map.fail("", "map_rows", "a picture's first row is north", "remove map_rows");
-  if (scale.cell <= 0 && (npy || map.data->GetGeoTransform(transform) != CE_None))
+  if (scale.cell <= 0 && !map.header.place)
     map.fail("georeference", "", "the file does not give the size of its cells",
              "add e.g. <map_cell_m>0.5</map_cell_m>");
 }
 
-// Only the accepted drivers are tried: others reach files elsewhere, or the network.
-void open(MapFile& map) {
-  map.report.file = map.file;
-  // Checked first, because the message of GDAL for a missing file is of no help.
-  VSIStatBufL status;
-  if (VSIStatL(map.file.c_str(), &status) != 0) map.fail("", "", "no such file", "check the path");
-  if (VSI_ISDIR(status.st_mode)) map.fail("", "", "is a directory", "name the map in it");
-  if (!VSI_ISREG(status.st_mode)) map.fail("", "", "is not a plain file", "save the map as a file");
-  if (is_npy_file(map.file))
-    open_npy(map);
-  else
-    open_raster(map);
-  map.band = map.data->GetRasterBand(1);
-  if (GDALDataTypeIsComplex(map.band->GetRasterDataType()))
-    map.fail("", "", "holds complex numbers", "give a file of heights");
-  // From here on it is a map; oddities are noted, not refused.
-  map.report.columns = map.data->GetRasterXSize();
-  map.report.rows = map.data->GetRasterYSize();
+OpenRaster open_raster(const MapName& name, MapReader reader) {
+  if (reader == MapReader::kPlain) return open_plain(name);
+  // Every build reads these arrays itself.
+  if (is_npy_file(name.file)) return open_npy(name);
+#ifdef NAVVY_WITH_GDAL
+  OpenRaster raster = open_with_gdal(name);
+  if (reader == MapReader::kGdal) return raster;
+  if (raster.header.kind == Kind::kPicture) raster.source = png_numbers(name);
+  if (raster.header.kind == Kind::kAsciiGrid)
+    raster.source = ascii_numbers(name, raster.header.columns);
+  return raster;
+#else
+  return open_plain(name);
+#endif
+}
+
+/// Checks that there is a file that may be opened: a pipe would wait for its writer.
+void check_file(const MapName& name) {
+  std::error_code failed;
+  const std::filesystem::file_status status = std::filesystem::status(name.file, failed);
+  if (!std::filesystem::exists(status)) name.fail("", "", "no such file", "check the path");
+  if (std::filesystem::is_directory(status))
+    name.fail("", "", "is a directory", "name the map in it");
+  if (!std::filesystem::is_regular_file(status))
+    name.fail("", "", "is not a plain file", "save the map as a file");
+}
+
+// From here on it is a map; oddities are noted, not refused.
+void open(MapFile& map, MapReader reader) {
+  check_file(map.name);
+  OpenRaster raster = open_raster(map.name, reader);
+  map.header = std::move(raster.header);
+  map.source = std::move(raster.source);
+  const RasterHeader& header = map.header;
+  map.report.file = map.name.file;
+  map.report.format = header.format;
+  map.report.for_gdal = header.for_gdal;
+  map.report.columns = header.columns;
+  map.report.rows = header.rows;
+  map.report.point_registered = header.point_registered;
   check_scale(map);
-  if (map.data->GetRasterCount() > 1)
-    map.report.notes.push_back(std::to_string(map.data->GetRasterCount()) +
+  if (header.bands > 1)
+    map.report.notes.push_back(std::to_string(header.bands) +
                                " bands: the first one is taken as height");
-  if (map.band->GetRasterDataType() == GDT_Byte)
+  if (header.has_bytes)
     map.report.notes.push_back(
         "8-bit heights: steps of " +
         (map.scale.has_heights
              ? number_text(std::abs(map.scale.high - map.scale.low) / 255, "%.3g") + " m"
              : std::string("a whole unit")) +
         ", and nodata may have become 0");
-  int block_x = 0, block_y = 0;
-  map.band->GetBlockSize(&block_x, &block_y);
-  // A block of pixel-interleaved bands holds all bands.
-  const char* interleave = map.data->GetMetadataItem("INTERLEAVE", "IMAGE_STRUCTURE");
-  const int bands_in_block =
-      interleave != nullptr && std::string(interleave) == "PIXEL" ? map.data->GetRasterCount() : 1;
-  map.block_x = block_x;
-  map.block_y = block_y;
-  // 8 bytes are those of the largest type, as complex numbers have been refused.
-  map.block_bytes = static_cast<double>(block_x) * block_y * 8 * bands_in_block;
-  if (map.block_bytes > limits::kMapBlockBytes)
+  if (header.block_bytes > limits::kMapBlockBytes)
     // A damaged header may contain any number.
-    map.fail("", std::to_string(block_x) + " x " + std::to_string(block_y),
+    map.fail("", std::to_string(header.block_x) + " x " + std::to_string(header.block_y),
              "is stored in blocks too large to read",
              "rewrite it with gdal_translate -co TILED=YES");
 }
 
 // Accepts axes that run backwards and cells that are not square; refuses rotation.
 void read_transform(MapFile& map) {
-  double g[6];
   const scene::RasterScale& scale = map.scale;
-  map.georeferenced = map.data->GetGeoTransform(g) == CE_None && scale.cell <= 0;
-  if (!map.georeferenced) {
+  std::array<double, 6> g = {};
+  if (map.header.place && scale.cell <= 0) {
+    g = *map.header.place;
+  } else {
     const double cell = scale.cell > 0 ? scale.cell : 1;
-    const bool north_first = !is_npy(map) || scale.north_first;
-    // GDAL's six numbers: x = g0 + g1 column + g2 row, y = g3 + g4 column + g5 row.
+    const bool npy = map.header.kind == Kind::kArray, north_first = !npy || scale.north_first;
     g[0] = scale.corner.x(), g[2] = g[4] = 0, g[1] = cell;
     g[3] = scale.corner.y() + (north_first ? map.report.rows * cell : 0),
     g[5] = north_first ? -cell : cell;
     map.report.notes.push_back(
         "no georeference: cells of " + number_text(cell) + " m, lower-left corner at (" +
         number_text(scale.corner.x()) + ", " + number_text(scale.corner.y()) + ")" +
-        (is_npy(map) ? (north_first ? ", first row north" : ", first row south") : ""));
+        (npy ? (north_first ? ", first row north" : ", first row south") : ""));
   }
   for (const double value : g)
     if (!std::isfinite(value))
@@ -183,9 +147,6 @@ void read_transform(MapFile& map) {
   map.report.file_min = Vec2(map.x_min, map.y_min);
   map.report.file_max =
       map.report.file_min + Vec2(map.step_x * map.report.columns, map.step_y * map.report.rows);
-  // GDAL has already moved the corner of point-registered files by half a cell.
-  const char* registration = map.data->GetMetadataItem(GDALMD_AREA_OR_POINT);
-  map.report.point_registered = registration != nullptr && EQUAL(registration, GDALMD_AOP_POINT);
 }
 
 // Degrees are not lengths: the message describes how to get metres.
@@ -205,13 +166,13 @@ void refuse_degrees(MapFile& map) {
 void read_crs(MapFile& map) {
   TerrainReport& report = map.report;
   report.unit = report.height_unit = "metre";
-  const OGRSpatialReference* declared = map.data->GetSpatialRef();
+  const RasterCrs& declared = map.header.crs;
   // Local engineering grids often come without a CRS: metres are the only sensible assumption then.
-  if (declared == nullptr || declared->IsEmpty()) {
+  if (!declared.declared) {
     report.notes.push_back("no CRS: coordinates and heights are taken as metres");
   } else {
-    report.crs = declared->GetName() != nullptr ? declared->GetName() : "unnamed";
-    if (declared->IsGeographic() != 0) {
+    report.crs = declared.name;
+    if (declared.degrees) {
       // Coordinates of hundreds of kilometres under a CRS of degrees are a wrong label, not a wrong
       // map.
       const Vec2 &low = report.file_min, &high = report.file_max;
@@ -223,13 +184,9 @@ void read_crs(MapFile& map) {
                              ") but its coordinates cannot be: taken as metres, CRS dropped");
       report.crs.clear();
     } else {
-      const char* name = nullptr;
-      report.metres = declared->GetLinearUnits(&name);
-      if (name != nullptr) report.unit = name;
-      char* wkt = nullptr;
-      const char* const format[] = {"FORMAT=WKT2_2019", nullptr};
-      if (declared->exportToWkt(&wkt, format) == OGRERR_NONE && wkt != nullptr) map.crs_wkt = wkt;
-      CPLFree(wkt);
+      report.metres = declared.metres;
+      report.unit = declared.unit;
+      map.crs_wkt = declared.wkt;
     }
   }
   if (!std::isfinite(report.metres) || !(report.metres > 0))
@@ -246,8 +203,8 @@ void read_crs(MapFile& map) {
 // The unit of heights is that of the band, else of a vertical CRS, else the horizontal one.
 void read_height_unit(MapFile& map) {
   TerrainReport& report = map.report;
-  const std::string unit = map.band->GetUnitType() != nullptr ? map.band->GetUnitType() : "";
-  const OGRSpatialReference* declared = map.data->GetSpatialRef();
+  const std::string& unit = map.header.height_unit;
+  const RasterCrs& declared = map.header.crs;
   // Spellings of GDAL, PROJ, Esri and people.
   struct Unit {
     const char* name;
@@ -268,10 +225,10 @@ void read_height_unit(MapFile& map) {
                                     {"Foot_US", kSurveyFoot},
                                     {"ftUS", kSurveyFoot},
                                     {"us-ft", kSurveyFoot}};
-  // EQUAL ignores case, as files write FT, Foot and foot.
+  // Files write FT, Foot and foot.
   const auto* const known =
       std::find_if(std::begin(kUnits), std::end(kUnits),
-                   [&](const Unit& each) { return EQUAL(each.name, unit.c_str()); });
+                   [&](const Unit& each) { return lower_case(each.name) == lower_case(unit); });
   if (known != std::end(kUnits)) {
     report.height_metres = known->metres;
     if (known->metres != 1) report.height_unit = unit;
@@ -279,10 +236,9 @@ void read_height_unit(MapFile& map) {
     report.notes.push_back(
         "heights in '" + unit +
         "', an unknown unit: taken as metres; to assign one: " + map.edit("-units ft"));
-  } else if (declared != nullptr && declared->IsVertical() != 0) {
-    const char* name = nullptr;
-    report.height_metres = declared->GetTargetLinearUnits("VERT_CS", &name);
-    if (name != nullptr) report.height_unit = name;
+  } else if (declared.declared && declared.vertical) {
+    report.height_metres = declared.height_metres;
+    report.height_unit = declared.height_unit;
   } else if (report.metres != 1) {
     report.height_unit = report.unit;
     report.height_metres = report.metres;
@@ -294,6 +250,18 @@ void read_height_unit(MapFile& map) {
              "assign one: " + map.edit("-units m"));
 }
 
+/// Completes a remedy that ends with a GeoTIFF, which a build without GDAL cannot read.
+std::string usable_remedy(const std::string& remedy) {
+#ifndef NAVVY_WITH_GDAL
+  for (const char* tiff : {"OUT.tif", "GTiff", "TILED"})
+    if (remedy.find(tiff) != std::string::npos)
+      return remedy +
+             "; this build, which has no GDAL, reads no GeoTIFF: make an .asc of it with "
+             "gdal_translate -of AAIGrid";
+#endif
+  return remedy;
+}
+
 }  // namespace
 
 std::string number_text(double value, const char* format) {
@@ -302,22 +270,23 @@ std::string number_text(double value, const char* format) {
   return buffer;
 }
 
-void MapFile::fail(const std::string& part, const std::string& value, const std::string& rule,
+void MapName::fail(const std::string& part, const std::string& value, const std::string& rule,
                    const std::string& remedy) const {
   // Faults of the file itself name the element; parts of a ground have their own names.
   const bool of_ground = element == "terrain" && part != "at" && part != "size";
   const std::string where = part.empty() ? element : of_ground ? part : element + "/" + part;
-  throw InputError(Fault{Fault::Severity::kError, file, 0, where, value, rule, remedy});
+  throw InputError(
+      Fault{Fault::Severity::kError, file, 0, where, value, rule, usable_remedy(remedy)});
 }
 
 std::string MapFile::edit(const std::string& option) const {
-  if (EQUAL(data->GetDriver()->GetDescription(), "GTiff")) return "gdal_edit.py " + option + " IN";
+  if (header.editable) return "gdal_edit.py " + option + " IN";
   return "gdal_translate IN OUT.tif, then gdal_edit.py " + option + " OUT.tif";
 }
 
-MapFile::MapFile(const std::string& path, const scene::RasterScale& how, const std::string& what)
-    : file(path), element(what), scale(how) {
-  open(*this);
+MapFile::MapFile(const MapName& map, const scene::RasterScale& how_scaled, MapReader reader)
+    : name(map), scale(how_scaled) {
+  open(*this, reader);
   read_transform(*this);
   read_crs(*this);
   read_height_unit(*this);

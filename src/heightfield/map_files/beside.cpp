@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "heightfield/gdal/beside.h"
+#include "heightfield/map_files/beside.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -7,26 +7,21 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/limits.h"
+#include "heightfield/map_files/ascii_words.h"
 
 namespace navvy::heightfield {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 }  // namespace
 
 std::vector<std::string> files_beside(const std::string& file) {
   const fs::path path = file;
-  std::vector<std::string> known = {lower(path.filename().string() + ".aux.xml")};
+  std::vector<std::string> known = {lower_case(path.filename().string() + ".aux.xml")};
   for (const char* ending :
        {".prj", ".tfw", ".tifw", ".tiffw", ".pgw", ".pngw", ".wld", ".aux.xml"})
-    known.push_back(lower(path.stem().string() + ending));
+    known.push_back(lower_case(path.stem().string() + ending));
   std::vector<std::string> names = {path.filename().string()};
   std::error_code failed;
   // Some programs write endings and names in capitals, and GDAL looks for those too.
@@ -34,7 +29,7 @@ std::vector<std::string> files_beside(const std::string& file) {
        end;
        !failed && at != end; at.increment(failed)) {
     const std::string name = at->path().filename().string();
-    if (std::find(known.begin(), known.end(), lower(name)) == known.end()) continue;
+    if (std::find(known.begin(), known.end(), lower_case(name)) == known.end()) continue;
     require_regular(at->path().string());
     std::error_code unknown;
     const std::uintmax_t size = fs::file_size(at->path(), unknown);

@@ -4,7 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "heightfield/gdal/import.h"
+#include "heightfield/map_files/import.h"
 
 namespace navvy::heightfield {
 namespace {

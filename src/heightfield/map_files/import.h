@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads terrain files (GeoTIFF, ESRI ASCII, PNG, NPY) as the initial surface of a site. Only in
-// builds with NAVVY_WITH_GDAL.
+// Reads terrain files (ESRI ASCII, PNG, NPY, with NAVVY_WITH_GDAL also GeoTIFF) as the initial
+// surface of a site.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,14 @@
 
 namespace navvy::heightfield {
 
+/// Readers of map files: those that the build uses, or, for tests that compare them, those that
+/// need no GDAL, or GDAL for all that it can read.
+enum class MapReader { kBuild, kPlain, kGdal };
+
 /// Properties of a terrain file, and of the site made from it. File coordinates have the file's own
 /// units; everything else is in metres and radians.
 struct TerrainReport {
-  /// Path of the file (`file`), and the name of its format in GDAL (`format`).
+  /// Path of the file (`file`), and the name of its format as in GDAL (`format`).
   std::string file, format;
   /// Number of cells per row (`columns`) and number of rows (`rows`) of the whole file.
   int columns = 0, rows = 0;
@@ -86,10 +90,12 @@ struct TerrainReport {
 /// @param held maximum number of file cells to keep in memory. A larger map is read in windows on
 /// demand; the heights are bit-identical either way.
 /// @param side number of cells along each side of such a window
+/// @param reader reader of the file; only tests choose
 /// @returns properties of the file and the site
 /// @throws InputError if the file is missing, unreadable, in degrees, rotated, or has no heights on
 /// the site, or if the site is not within the map.
 TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup,
-                             double held = limits::kMapCells, int side = WindowedRaster::kSide);
+                             double held = limits::kMapCells, int side = WindowedRaster::kSide,
+                             MapReader reader = MapReader::kBuild);
 
 }  // namespace navvy::heightfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Places the site on its map and computes the heights of columns from the cells of the map.
-#include "heightfield/gdal/import.h"
+#include "heightfield/map_files/import.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "heightfield/gdal/map_file_private.h"
 #include "heightfield/make_ground.h"
+#include "heightfield/map_files/map_file.h"
 #include "heightfield/span_text.h"
 
 namespace navvy::heightfield {
@@ -50,9 +50,10 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
 }  // namespace
 
 // Small maps are held; larger ones are read in windows, with bit-identical heights.
-TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held,
-                             int side) {
-  MapFile map(world.ground.file, world.ground.scale, "terrain");
+TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held, int side,
+                             MapReader reader) {
+  MapFile map({world.ground.file, "terrain", world.file, 0},
+              world.ground.scale, reader);
   setup.crs_wkt = map.crs_wkt;
   const Vec2 corner = place_site(map, world.ground, setup),
              size = setup.cell * Vec2(setup.nx, setup.ny);
