@@ -10,6 +10,8 @@ set(scripts "")
 function(append_file variable tag path)
   if(EXISTS ${path})
     file(READ ${path} text)
+    # A page has no files beside it that a debugger could read.
+    string(REGEX REPLACE "[^\n]*sourceMappingURL=[^\n]*" "" text "${text}")
   else()
     message(WARNING "${path} is missing: pages of runs will lack what it draws (apt-get install libjs-three libjs-dygraphs)")
     set(text "/* missing when Navvy was built: ${path} */")

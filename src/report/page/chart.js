@@ -25,8 +25,13 @@
       this.card = el('div', {class: 'chart'}, this.head(), el('div', {class: 'frame'}, this.area,
                                                               this.cursor));
       host.append(this.card);
+    }
+
+    // Draws the chart. Its size must be final, so all charts of a grid are added before.
+    start() {
       this.graph = new Dygraph(this.area, this.rows(), this.settings());
       this.recolor();
+      return this;
     }
 
     head() {
@@ -39,8 +44,15 @@
       }));
       return el('div', {class: 'chart-head'},
                 el('h3', null, title,
-                   el('span', {class: 'unit'}, (unit ? ` [${unit}]` : '') + cut)),
+                   el('span', {class: 'unit'}, (unit ? ` [${unit}]` : '') + cut),
+                   this.removal()),
                 this.legend);
+    }
+
+    removal() {
+      const {remove} = this.chart;
+      if (!remove) return null;
+      return el('button', {type: 'button', class: 'small', onclick: remove}, 'Remove');
     }
 
     rows() {
@@ -61,8 +73,9 @@
       // A finger scrolls the page instead of the chart.
       for (const event of ['touchstart', 'touchmove', 'touchend']) delete model[event];
       return {
-        labels, legend: 'never', strokeWidth: 1.4, highlightCircleSize: 3, interactionModel: model,
-        connectSeparatedPoints: Boolean(this.options.connect), axisLabelFontSize: 12,
+        labels, legend: 'never', resizable: 'passive', strokeWidth: 1.4, highlightCircleSize: 3,
+        interactionModel: model, axisLabelFontSize: 12,
+        connectSeparatedPoints: Boolean(this.options.connect),
         axes: {y: {axisLabelWidth: 54, pixelsPerLabel: 26,
                    axisLabelFormatter: value => navvy.number(value, 3)},
                x: {axisLabelFormatter: value => navvy.number(value, 4)}},

@@ -48,11 +48,12 @@
       const {run, machine} = this;
       const own = (run.raw.phases || []).find(one => one.machine === machine);
       const colors = navvy.phaseColors(run.raw.phases);
-      const groups = this.chosen.map(index => navvy.channelChart(run.telemetry, index)).concat(
+      const groups = this.chosen.map(index => this.chosenChart(index)).concat(
         navvy.chartGroups(run.telemetry, machine).filter(group => this.more || !group.more));
       const options = {phases: own ? own.spans : null, colors, pick: x => this.clock.set(x),
                        hover: row => this.charts.forEach(chart => chart.showValues(row))};
       this.charts = groups.map(group => new navvy.Chart(this.host, group, this.times, options));
+      this.charts.forEach(chart => chart.start());
       if (!groups.length)
         this.host.append(navvy.absent('All grouped channels are zero; add a channel to see it.'));
       if (Dygraph.synchronize && this.charts.length > 1)
@@ -60,6 +61,14 @@
                                         {zoom: true, selection: true, range: false});
       this.showPhases(own, colors);
       this.charts.forEach(chart => chart.place(this.clock.time));
+    }
+
+    chosenChart(index) {
+      const remove = () => {
+        this.chosen = this.chosen.filter(other => other !== index);
+        this.build();
+      };
+      return Object.assign(navvy.channelChart(this.run.telemetry, index), {remove});
     }
 
     showPhases(own, colors) {

@@ -65,7 +65,7 @@
         return {label: 'AB'[i], unit: one.unit, values: spread(times, own[i], one.values)};
       });
       this.chart = new navvy.Chart(this.host, {title: name, unit: series[0].unit, series, of: 2},
-                                   times, {connect: true});
+                                   times, {connect: true}).start();
     }
   }
 

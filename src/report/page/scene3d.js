@@ -5,23 +5,29 @@
   const navvy = window.navvy = window.navvy || {};
   const {el} = navvy;
 
-  // The library prints an error where a browser has no WebGL, so the context is made here.
-  function makeContext(canvas) {
+  // The renderer serves whichever run is shown, as browsers limit the number of contexts.
+  let renderer = null;
+
+  // Returns the renderer, or null in a browser without WebGL. The library would print an error
+  // there, so the context is made here.
+  function sharedRenderer() {
+    if (renderer) return renderer;
+    const canvas = el('canvas', {'aria-label': '3D view of ground and machines'});
     const wish = {alpha: true, antialias: true};
-    try {
-      return canvas.getContext('webgl2', wish) || canvas.getContext('webgl', wish);
-    } catch (error) {
-      return null;
-    }
+    const context = canvas.getContext('webgl2', wish) || canvas.getContext('webgl', wish);
+    if (!context) return null;
+    renderer = new THREE.WebGLRenderer({canvas, context, alpha: true, antialias: true});
+    renderer.gammaOutput = true;  // colours of the data are linear
+    renderer.gammaFactor = 2.2;
+    return renderer;
   }
 
   class SceneView {
-    constructor(run, clock, body, canvas, context) {
+    constructor(run, clock, body) {
+      const canvas = renderer.domElement;
       this.run = run;
       this.clock = clock;
-      this.renderer = new THREE.WebGLRenderer({canvas, context, alpha: true, antialias: true});
-      this.renderer.gammaOutput = true;  // colours of the data are linear
-      this.renderer.gammaFactor = 2.2;
+      this.renderer = renderer;
       this.scene = new THREE.Scene();
       this.addLights();
       if (run.ground) this.addGround();
@@ -55,8 +61,8 @@
       controls.maxPolarAngle = 0.495 * Math.PI;
       // The wheel scrolls the page until somebody clicks into the view.
       controls.enableZoom = false;
-      canvas.addEventListener('pointerdown', () => { controls.enableZoom = true; });
-      canvas.addEventListener('pointerleave', () => { controls.enableZoom = false; });
+      canvas.onpointerdown = () => { controls.enableZoom = true; };
+      canvas.onpointerleave = () => { controls.enableZoom = false; };
     }
 
     // Middle [m] and size [m] of the part of the site where work is done.
@@ -78,6 +84,8 @@
       const {clientWidth: width, clientHeight: height} = this.renderer.domElement;
       // A narrow view needs more distance to show the same width.
       const far = 1.15 * size * Math.max(1, 1.6 * height / (width || height));
+      // The near half of the ground takes more of the picture, so the view aims below the middle.
+      middle.z -= 0.12 * size;
       this.controls.target.copy(middle);
       this.camera.position.copy(middle).add(
         new THREE.Vector3(-0.5, -0.68, 0.6).multiplyScalar(far));
@@ -136,7 +144,10 @@
 
     destroy() {
       this.controls.dispose();
-      this.renderer.dispose();
+      this.scene.traverse(object => {
+        if (object.geometry) object.geometry.dispose();
+        if (object.material) object.material.dispose();
+      });
     }
   }
 
@@ -147,12 +158,10 @@
       return refuse('This run has neither readable heights nor frames, so there is no 3D view.');
     if (!window.THREE || !THREE.OrbitControls)
       return refuse('The library of the 3D view is missing in this page.');
-    const canvas = el('canvas', {'aria-label': '3D view of ground and machines'});
-    const context = makeContext(canvas);
-    if (!context)
+    if (!sharedRenderer())
       return refuse('This browser has no WebGL, so the 3D view is left out. The rest of the page ' +
                     'works without it.');
-    const view = new SceneView(run, clock, body, canvas, context);
+    const view = new SceneView(run, clock, body);
     return {view, redraw: view.request, destroy: () => view.destroy()};
   };
 })();
