@@ -167,7 +167,6 @@ TEST_F(SensorTest, SweepsOverABodyThatMoves) {
     const auto end = std::lower_bound(times.begin(), times.end(), t - 1e-9);
     ASSERT_NE(end, times.end());
     const double face = faces[static_cast<std::size_t>(end - times.begin())];
-    << world->dt() << " " << t << "\n";
     EXPECT_NEAR(read[static_cast<std::size_t>(i)], face, 2e-4) << i;
   }
   // From the first to the last beam the box has come nearer, within a step.
