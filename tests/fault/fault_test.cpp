@@ -54,7 +54,9 @@ TEST(Fault, ARunReportsOrSurvivesAFailedCall) {
 
 TEST(Fault, AFullDiskLeavesASummaryWithStatusFailed) {
   const test::Folder folder;
-  const auto arguments = small_run(false);
+  auto arguments = small_run(false);
+  // The page comes after the results, and a run does not fail for want of it (below).
+  arguments.push_back("--no-report");
   ASSERT_EQ(attack(folder.path().string(), arguments, with(folder, "")).status, 0)
       << "kernels are compiled once";
   const auto calls = count_calls(folder.path().string(), arguments, with(folder, ""));
@@ -77,6 +79,21 @@ TEST(Fault, AFullDiskLeavesASummaryWithStatusFailed) {
     }
   }
   EXPECT_GT(with_summary, 1);
+}
+
+TEST(Fault, ADiskThatIsFullForThePageOnlyIsAWarning) {
+  const test::Folder folder;
+  const auto arguments = small_run(false);
+  ASSERT_EQ(attack(folder.path().string(), arguments, with(folder, "")).status, 0)
+      << "kernels are compiled once";
+  const auto calls = count_calls(folder.path().string(), arguments, with(folder, ""));
+  ASSERT_EQ(calls.at(1).first, "write");
+  const std::string fault = "write:" + std::to_string(calls[1].second - 1) + "+:ENOSPC";
+  const Outcome got = attack(folder.path().string(), arguments, with(folder, fault));
+  EXPECT_EQ(got.broken, "") << got.said;
+  EXPECT_EQ(got.status, 0) << got.said;
+  EXPECT_NE(got.summary, "failed");
+  EXPECT_NE(got.said.find("no report of the run: "), std::string::npos) << got.said;
 }
 
 /// Otherwise the campaign would wait without a message.
