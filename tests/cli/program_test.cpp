@@ -94,9 +94,8 @@ TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
   for (const auto& [key, value] : summary.items())
     EXPECT_NE(documented.find("`" + key), std::string::npos)
         << key << " is not in docs/reference/results.md";
-  for (const char* name :
-       {"telemetry.csv", "terrain_start.tif", "terrain_end.tif", "scene.sdf", "run.json",
-        "replay.jsonl", "report.html"})
+  for (const char* name : {"telemetry.csv", "terrain_start.tif", "terrain_end.tif", "scene.sdf",
+                           "run.json", "replay.jsonl", "report.html"})
     EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
   expect_readable(out());
 }

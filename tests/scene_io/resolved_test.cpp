@@ -130,8 +130,9 @@ TEST(Resolved, TextHoldsEveryOverride) {
 
 TEST(Resolved, IncludesTheTableOfMaterials) {
   const std::string file = "<file>materials.sdf</file>",
-                    own = "<ground>earth</ground><pair materials=\"ice earth\"><static_friction>0.1"
-                          "</static_friction></pair>";
+                    own =
+                        "<ground>earth</ground><pair materials=\"ice earth\"><static_friction>0.1"
+                        "</static_friction></pair>";
   // The pairs of the file come first, wherever its element stands.
   for (const std::string& table : {file + own, own + file}) {
     const std::string scene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w">
