@@ -10,8 +10,13 @@ set(scripts "")
 function(append_file variable tag path)
   if(EXISTS ${path})
     file(READ ${path} text)
-    # A page has no files beside it that a debugger could read.
-    string(REGEX REPLACE "[^\n]*sourceMappingURL=[^\n]*" "" text "${text}")
+    # A page has no files beside it that a debugger could read: cut the comment that ends the file
+    # with their name. A regular expression would take a minute over these long lines.
+    string(FIND "${text}" "# sourceMappingURL=" comment REVERSE)
+    if(comment GREATER 2)
+      math(EXPR comment "${comment} - 2")
+      string(SUBSTRING "${text}" 0 ${comment} text)
+    endif()
   else()
     message(WARNING "${path} is missing: pages of runs will lack what it draws (apt-get install libjs-three libjs-dygraphs)")
     set(text "/* missing when Navvy was built: ${path} */")
