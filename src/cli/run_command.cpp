@@ -172,10 +172,10 @@ void print_pictures(std::FILE* out, const run::RunEnd& end) {
       100 * end.encoding_time / end.wall_time);
 }
 
-/// Makes the page of the run beside its results. A run does not fail for want of a page.
-void write_page(const RunOptions& options, std::FILE* out) {
-  const std::string& folder = options.simulation.folder;
-  if (options.no_report) return;
+/// Makes the page of the run in the folder of its results. A run does not fail for want of a page.
+void write_page(const RunOptions& options, const run::Simulation& simulation, std::FILE* out) {
+  const std::string folder = simulation.results_folder();
+  if (options.no_report || folder.empty()) return;
   const std::string file = folder + "/" + report::kPageName;
   try {
     report::write_page({folder}, file);
@@ -186,7 +186,8 @@ void write_page(const RunOptions& options, std::FILE* out) {
 }
 
 /// Prints how the run ended; returns the exit status.
-int print_end(const RunOptions& options, const session::Session& session, const run::RunEnd& end) {
+int print_end(const RunOptions& options, const run::Simulation& simulation,
+              const run::RunEnd& end) {
   // Standard output belongs to the controller where there is one.
   std::FILE* out = options.control.empty() ? stdout : stderr;
   if (end.reason == run::EndReason::kInterrupted)
@@ -196,10 +197,10 @@ int print_end(const RunOptions& options, const session::Session& session, const 
   else if (end.reason == run::EndReason::kMissedGoal)
     std::fprintf(out, "%s\n", printable(end.cause).c_str());
   else
-    print_programs(out, session);
+    print_programs(out, simulation.session());
   if (!options.quiet) print_pictures(out, end);
   std::fprintf(out, "results: %s/summary.json\n", printable(options.simulation.folder).c_str());
-  write_page(options, out);
+  write_page(options, simulation, out);
   if (end.reason == run::EndReason::kInterrupted) return kInterrupted;
   if (end.reason == run::EndReason::kForbidden) return kForbidden;
   if (end.reason == run::EndReason::kMissedGoal) return kMissedGoal;
@@ -248,10 +249,10 @@ int run_scene(RunOptions options) {
     end = drive(options, simulation, program);
   } catch (const std::exception&) {
     // The page of a run that broke shows its last frames.
-    write_page(options, stderr);
+    write_page(options, simulation, stderr);
     throw;
   }
-  return print_end(options, simulation.session(), end);
+  return print_end(options, simulation, end);
 }
 
 }  // namespace

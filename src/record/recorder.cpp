@@ -94,6 +94,8 @@ void Recorder::State::write_start() {
   write_summary(false);
   write_description();
   write_terrain(session.world(), path("terrain_start.tif"));
+  // Made after the run or by hand: the next run moves it, too.
+  path("report.html");
   if (options.replay) replay = std::make_unique<ReplayRecorder>(session, path("replay.jsonl"));
   // The first row is the state before any step.
   sample_when_due();
@@ -333,6 +335,9 @@ render::Image Recorder::draw(const std::string& camera) {
 }
 
 std::string Recorder::summary(bool with_hash) const { return state_->summary(with_hash); }
+std::string Recorder::folder() const {
+  return state_->folder->intact() ? state_->folder->directory() : std::string();
+}
 const RunStatus& Recorder::status() const { return state_->status; }
 
 double wall_time_left(double simulated, double real_time_factor) {

@@ -85,6 +85,9 @@ class Recorder {
   /// Returns the text that summary.json would have now. The hash of the state costs a pass over the
   /// whole state; if `with_hash` is false, `state_hash` is null.
   std::string summary(bool with_hash) const;
+  /// Returns the folder of the results, also after they were saved in another one; empty if it was
+  /// removed or replaced.
+  std::string folder() const;
   /// Returns the status of the run so far, with its wall times and the number of pictures.
   const RunStatus& status() const;
   /// Returns a picture of the world's current state from the scene camera called `camera`. The

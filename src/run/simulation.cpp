@@ -416,6 +416,10 @@ RunProgress Simulation::progress() const {
   return out;
 }
 
+std::string Simulation::results_folder() const {
+  return state_->recorder ? state_->recorder->folder() : std::string();
+}
+
 std::string Simulation::summary(bool with_hash) const {
   const State& s = *state_;
   if (s.recorder) return s.recorder->summary(with_hash);

@@ -170,6 +170,9 @@ class Simulation {
   /// contains the hash of the state, which takes one pass over the state; otherwise `state_hash` is
   /// null.
   std::string summary(bool with_hash = true) const;
+  /// Returns the folder of the results, also after they were saved in another one; empty without
+  /// such a folder, and if it was removed or replaced.
+  std::string results_folder() const;
   /// Returns the hash of everything that determines the further course of the run, as hexadecimal
   /// text.
   std::string state_hash() const;
