@@ -75,6 +75,7 @@ struct Simulation::State {
   record::RunStatus status;  ///< of a run without a folder
   Stopwatch total;
   std::uint64_t replacements = 0;
+  std::string results;        ///< folder of the results after the end; empty if it was lost
   bool replaced = false;      ///< since the recorder and the observers were informed
   bool snapshot_due = false;  ///< SimulationOptions::snapshot is still to be written
 
@@ -211,6 +212,7 @@ void Simulation::State::fail(const std::string& cause) noexcept {
   };
   attempt([&] { close(); });
   if (recorder) attempt([&] { recorder->finish("failed", cause); });
+  if (recorder) attempt([&] { results = recorder->folder(); });
   recorder.reset();
   for (RunObserver* one : std::exchange(observers, {})) attempt([&] { one->finish(); });
 }
@@ -272,7 +274,13 @@ RunEnd Simulation::State::finish(RunEnd end) {
   // The folder is closed even if one of its files cannot be written.
   const std::unique_ptr<record::Recorder> closing = std::move(recorder);
   if (!closing) return end;
-  closing->finish(status_of(end.reason), message_of(end));
+  try {
+    closing->finish(status_of(end.reason), message_of(end));
+  } catch (const std::exception&) {
+    results = closing->folder();
+    throw;
+  }
+  results = closing->folder();
   const record::RunStatus& about = closing->status();
   end.pictures = about.frames;
   end.wall_time = about.wall_time + about.render_time + about.record_time;
@@ -417,7 +425,7 @@ RunProgress Simulation::progress() const {
 }
 
 std::string Simulation::results_folder() const {
-  return state_->recorder ? state_->recorder->folder() : std::string();
+  return state_->recorder ? state_->recorder->folder() : state_->results;
 }
 
 std::string Simulation::summary(bool with_hash) const {
