@@ -46,6 +46,7 @@ inline std::string write_png(const std::string& path, int columns, int rows, con
   const int channels = png_get_channels(png, info), bytes = kind.depth > 8 ? 2 : 1;
   std::vector<std::vector<png_byte>> lines;
   std::vector<png_bytep> pointers;
+  pointers.reserve(static_cast<std::size_t>(rows));
   for (int row = 0; row < rows; ++row) {
     std::vector<png_byte> line(static_cast<std::size_t>(columns * channels * bytes), 255);
     for (int column = 0; column < columns; ++column) {
