@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""OpenCL drivers: finds the CPU runtime of PyPI, and says what to install where there is none."""
+"""Finds the OpenCL driver for processors that PyPI offers."""
 from __future__ import annotations
 
 import glob
@@ -23,13 +23,3 @@ def find_driver() -> None:
         if folder and os.path.isfile(file):
             os.environ["OCL_ICD_VENDORS"] = file
             return
-
-
-def advice(text: str) -> str:
-    """Returns the message of a DeviceError; where no platform is installed, with the package of
-    PyPI that provides one.
-    """
-    if "no platform is installed" not in text:
-        return text
-    packages = "intel-opencl-rt intel-cmplr-lib-rt"
-    return text + "; without root: pip install %s (Intel's runtime for processors)" % packages

@@ -9,8 +9,6 @@ from typing import Iterable, Sequence
 import numpy as np
 
 from . import _navvy
-from ._errors import DeviceError
-from ._opencl import advice
 from ._scene import Scene
 
 
@@ -40,10 +38,7 @@ class World(_navvy.Runner):
         scene = scene.copy() if isinstance(scene, Scene) else Scene(scene)
         if seed is not None:
             scene.seed = seed
-        try:
-            super().__init__(scene._data, device, list(watch), self._programs)
-        except DeviceError as error:
-            raise DeviceError(advice(str(error))) from None
+        super().__init__(scene._data, device, list(watch), self._programs)
 
     def observe(
         self, out: np.ndarray | None = None, outputs: Sequence[str | int] | None = None
