@@ -26,9 +26,8 @@ from typing import NamedTuple
 import numpy as np
 
 import navvy
+from navvy.digging import MACHINE, joint_channels, vary_scene
 
-MACHINE = "excavator"
-JOINTS = ("swing_joint", "boom_joint", "arm_joint", "bucket_joint")
 STEPS = 30  # base steps per row of a path
 DIG = ("penetrate", "drag", "curl")
 # Standard deviations of the first round: boom [rad], bucket [rad], pace of dig and of carry (log).
@@ -38,7 +37,7 @@ SPREAD = np.array([0.015, 0.1, 0.15, 0.15])
 class Path(NamedTuple):
     """A path of the arm: one row per STEPS base steps."""
 
-    joints: np.ndarray  #: positions of JOINTS [rad], shape (rows, 4)
+    joints: np.ndarray  #: positions of the joints of `joint_channels` [rad], shape (rows, 4)
     digs: np.ndarray  #: true while the bucket digs, shape (rows,)
     dump: int  #: row in which the bucket begins to open
 
@@ -58,19 +57,16 @@ class Cycle(NamedTuple):
 
 def scene_of(seed: int, cell: float, known_soil: bool) -> navvy.Scene:
     """Returns the scene of a seed; with `known_soil` with the soil of the scene file."""
-    random = np.random.default_rng(seed)
-    soil, pose = random.uniform(-1, 1, 2), random.uniform(-1, 1, 3)
     scene = navvy.Scene("trench")
-    values = {
-        "solver.cell_m": cell,
-        "machine.pose": (-4 + 0.1 * pose[0], 0.1 * pose[1], 0, 0, 0, 0.02 * pose[2]),
-        "machine.program.dig.max_cycles": 1,
-    }
-    if not known_soil:
-        values["soil.cohesion_pa"] = scene.soil.cohesion_pa * (1 + 0.3 * soil[0])
-        values["soil.friction_angle_deg"] = scene.soil.friction_angle_deg * (1 + 0.15 * soil[1])
-    scene.update(values)
-    return scene
+    scene.update(
+        {
+            "solver.cell_m": cell,
+            "machine.pose": (-4, 0, 0, 0, 0, 0),
+            "machine.program.dig.max_cycles": 1,
+        }
+    )
+    share = 0.0 if known_soil else 0.3
+    return vary_scene(scene, np.random.default_rng(seed), share, (0.1, 0.1, 0.02))
 
 
 class Arm:
@@ -78,15 +74,15 @@ class Arm:
 
     def __init__(self, world: navvy.World) -> None:
         self.world = world
-        self._targets = [world.input("%s/%s/position" % (MACHINE, one)) for one in JOINTS]
+        self._targets = [world.input(name) for name in joint_channels("position")]
         bounds = [world.inputs[i] for i in self._targets]
         self._low = np.array([one.low for one in bounds])
         self._high = np.array([one.high for one in bounds])
-        self._joints = [world.output("%s/%s/position" % (MACHINE, one)) for one in JOINTS]
+        self._joints = [world.output(name) for name in joint_channels("position")]
         self._payload = world.output(MACHINE + "/bucket/payload")
 
     def joints(self) -> np.ndarray:
-        """Returns the positions of JOINTS [rad]."""
+        """Returns the positions of the joints [rad]."""
         return self.world.observe(outputs=self._joints)
 
     def payload(self) -> float:
@@ -140,8 +136,8 @@ def varied(path: Path, change: np.ndarray) -> Path:
     weight = np.convolve(np.pad(path.digs.astype(float), 8, "edge"), np.ones(9) / 9, "same")[8:-8]
     weight *= np.minimum(1, np.arange(rows) / 8)
     joints = path.joints.copy()
-    joints[:, 1] += change[0] * weight
-    joints[:, 3] += change[1] * weight
+    joints[:, 0] += change[0] * weight
+    joints[:, 2] += change[1] * weight
     pace = np.exp(np.where(path.digs, change[2], change[3]))
     # When each row is due, in rows of the changed path.
     due = np.concatenate([[0], np.cumsum(1 / pace[:-1])])

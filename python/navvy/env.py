@@ -19,36 +19,26 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from ._errors import SimulationError
 from ._scene import Scene
 from ._world import World
+from .digging import MACHINE, joint_channels, vary_scene
 
-_MACHINE = "excavator"
-_JOINTS = ("boom_joint", "arm_joint", "bucket_joint", "swing_joint")
 _SITE = os.path.join(os.path.dirname(__file__), "dig.sdf")
 #: Largest changes of a world's stance: forward and to the left [m], yaw [rad].
-_STANCE = np.array([0.5, 0.5, 0.1])
+_STANCE = (0.5, 0.5, 0.1)
 #: Time in which a machine comes to rest before its world is a start [s].
 _SETTLE = 1.0
 
 
-def scene_of(number: int, vary: float) -> Scene:
-    """Returns the scene of a world. Number 0 is the scene file; others differ in cohesion (by the
-    share `vary` at most), friction angle (by half of that, up to 44 deg), stance and hills.
+def scene_of(number: int, share: float) -> Scene:
+    """Returns the scene of a world. Number 0 is the scene file; others differ in soil, as by
+    `vary_scene` with `share`, in stance and hills.
     """
     scene = Scene(_SITE)
     if number == 0:
         return scene
     random = np.random.default_rng(number)
-    soil, stance = random.uniform(-1, 1, 2), _STANCE * random.uniform(-1, 1, 3)
-    cohesion, friction = 1 + vary * soil[0], 1 + 0.5 * vary * soil[1]
-    scene.update(
-        {
-            "soil.cohesion_pa": scene.soil.cohesion_pa * cohesion,
-            "soil.residual_cohesion_pa": scene.soil.residual_cohesion_pa * cohesion,
-            "soil.friction_angle_deg": min(44.0, scene.soil.friction_angle_deg * friction),
-            "machine.pose": (*stance[:2], 0, 0, 0, stance[2]),
-            "ground.hills.seed": number,
-            "ground.hills.height_m": scene.ground.hills.height_m * random.uniform(0.25, 1),
-        }
-    )
+    scene = vary_scene(scene, random, share, _STANCE)
+    height = scene.ground.hills.height_m * random.uniform(0.25, 1)
+    scene.update({"ground.hills.seed": number, "ground.hills.height_m": height})
     return scene
 
 
@@ -145,18 +135,23 @@ class DigEnv(gymnasium.Env):
         self._begin_episode(self._world)
         return self._observation(), {"world": number}
 
+    @property
+    def world(self) -> World | None:
+        """World of the episode; None before the first reset."""
+        return self._world
+
     def _give(self) -> None:
         if self._world is not None:
             self._worlds.give(self._number, self._world)
             self._world = None
 
     def _begin_episode(self, world: World) -> None:
-        bucket = _MACHINE + "/bucket/"
-        names = ["%s/%s/%s" % (_MACHINE, j, q) for q in ("position", "velocity") for j in _JOINTS]
+        bucket = MACHINE + "/bucket/"
+        names = joint_channels("position") + joint_channels("velocity")
         names += [bucket + name for name in ("tip_x", "tip_y", "tip_z")]
         names += [bucket + name for name in ("force_x", "force_y", "force_z", "payload")]
         self._outputs = [world.output(name) for name in names]
-        self._inputs = [world.input("%s/%s/velocity" % (_MACHINE, joint)) for joint in _JOINTS]
+        self._inputs = [world.input(name) for name in joint_channels("velocity")]
         channels = world.inputs
         self._limits = np.array([channels[i].high for i in self._inputs])
         self._grid = world.grid
@@ -203,7 +198,7 @@ class DigEnv(gymnasium.Env):
         held = found[14] if found[10] > 0 else 0.0
         reward = held - self._held - 1e-8 * (world.energy - work)
         self._held = held
-        fallen = world.phase(_MACHINE) in ("tipped", "buried")
+        fallen = world.phase(MACHINE) in ("tipped", "buried")
         return found, float(reward), failed or fallen, world.time >= self._end, info
 
     def close(self) -> None:
@@ -217,6 +212,10 @@ class DigVectorEnv(VectorEnv):
     with 0). The results do not depend on their number. Members share their worlds: at most one per
     member is in use. `settings` are those of DigEnv.
 
+    Each member has a world of its own, which keeps its state from step to step. `navvy.rollout`
+    starts from snapshots and returns no states, so a step by it would need a snapshot to be saved
+    and loaded, and could not go on (python/README.md has the times).
+
     A member that ended is reset by the next step (`AutoresetMode.NEXT_STEP`): its action is
     ignored, its reward is 0 and its observation is the first of the new episode.
     """
@@ -226,12 +225,13 @@ class DigVectorEnv(VectorEnv):
     def __init__(self, num_envs: int = 1, workers: int = 0, vary: float = 0.3, **settings) -> None:
         shared = Worlds(vary)
         self._shared = shared
-        self._envs = [DigEnv(vary=vary, shared=shared, **settings) for _ in range(num_envs)]
+        #: The single environments.
+        self.members = [DigEnv(vary=vary, shared=shared, **settings) for _ in range(num_envs)]
         self._pool = concurrent.futures.ThreadPoolExecutor(workers or os.cpu_count() or 1)
         self._ended = [False] * num_envs
         self.num_envs = num_envs
-        self.single_action_space = self._envs[0].action_space
-        self.single_observation_space = self._envs[0].observation_space
+        self.single_action_space = self.members[0].action_space
+        self.single_observation_space = self.members[0].observation_space
         batch = gymnasium.vector.utils.batch_space
         self.action_space = batch(self.single_action_space, num_envs)
         self.observation_space = batch(self.single_observation_space, num_envs)
@@ -245,7 +245,7 @@ class DigVectorEnv(VectorEnv):
     def reset(self, *, seed=None, options: dict[str, Any] | None = None):
         if seed is None or isinstance(seed, int):
             seed = [None if seed is None else seed + i for i in range(self.num_envs)]
-        pairs = zip(self._envs, seed)
+        pairs = zip(self.members, seed)
         found = list(self._pool.map(lambda one: one[0].reset(seed=one[1], options=options), pairs))
         self._ended = [False] * self.num_envs
         return np.stack([one for one, _ in found]), self._infos(info for _, info in found)
@@ -258,7 +258,7 @@ class DigVectorEnv(VectorEnv):
         return observation, 0.0, False, False, info
 
     def step(self, actions):
-        found = list(self._pool.map(self._advance, self._envs, self._ended, actions))
+        found = list(self._pool.map(self._advance, self.members, self._ended, actions))
         observations, rewards, terminated, truncated, infos = zip(*found)
         self._ended = [a or b for a, b in zip(terminated, truncated)]
         return (
@@ -270,7 +270,7 @@ class DigVectorEnv(VectorEnv):
         )
 
     def close_extras(self, **settings) -> None:
-        for env in self._envs:
+        for env in self.members:
             env.close()
         self._shared.close()
         self._pool.shutdown()
