@@ -1,61 +1,90 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tries navvy.calibrate on soils that are known; prints errors and how often intervals hold them.
 
-    python3 examples/calibrate_trials.py [trials] [noise of a sample, share of the largest] [seed]
+    python3 examples/calibrate_trials.py --trials 20
 
 The series are forces on the bucket of the scene bucket_path with cells of 0.2 m, with white noise.
-Simulations of the first round are the same in all trials and are made once.
+All trials repeat one motion, so each uses the scenes that were simulated for those before it.
 """
-import sys
+import argparse
 import time
-from unittest import mock
 
 import numpy as np
 
 import navvy
-from navvy import _calibrate
 
 OUTPUTS = ["bucket/bucket/force_x", "bucket/bucket/force_z"]
 TIMES = np.arange(0.5, 4.0, 0.05)
-NAMES = list(_calibrate.SOIL)
+WINDOWS = 8
 
 
-def main(trials=20, noise=0.05, seed=3):
+def soil_of(scene, friction, cohesion):
+    """Returns a copy of a scene with another soil."""
+    out, soil = scene.copy(), scene.soil
+    ratio = soil.residual_cohesion_pa / soil.cohesion_pa
+    out.update(
+        {
+            "soil.friction_angle_deg": friction,
+            "soil.cohesion_pa": cohesion,
+            "soil.residual_cohesion_pa": ratio * cohesion,
+        }
+    )
+    return out
+
+
+def measure(scene):
+    """Returns the forces of a scene at TIMES, shape (times, outputs)."""
+    with navvy.Session(scene) as world:
+        rows = []
+        for at in TIMES:
+            world.step(round(at / world.dt) - world.steps)
+            rows.append(world.observe(outputs=OUTPUTS))
+    return np.array(rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--trials", type=int, default=20)
+    parser.add_argument("--noise", type=float, default=0.05, help="of a sample, of the largest one")
+    parser.add_argument("--seed", type=int, default=3)
+    parser.add_argument("--html", help="page of the last trial")
+    options = parser.parse_args()
     scene = navvy.Scene("bucket_path")
     scene.update({"solver.cell_m": 0.2})
-    simulate, known = _calibrate.simulate, {}
-
-    def once(changed, outputs, times):
-        key = changed.soil[0].cohesion_pa, changed.soil[0].friction_angle_deg
-        if key not in known:
-            known[key] = simulate(changed, outputs, times)
-        return known[key]
-
-    random, errors, inside = np.random.default_rng(seed), [], []
+    random, errors, inside = np.random.default_rng(options.seed), [], []
+    share = options.noise / np.sqrt(len(TIMES) / WINDOWS)
+    known = None
     print("trial  phi [deg]: true  fitted (interval)    c [Pa]: true  fitted (interval)   misfit")
-    for trial in range(trials):
+    for trial in range(options.trials):
         begun = time.perf_counter()
         truth = np.array([random.uniform(24, 38), random.uniform(1500, 8000)])
-        measured = scene.copy()
-        measured.update(_calibrate.settings_of(scene, NAMES, truth))
-        rows = simulate(measured, OUTPUTS, TIMES)
-        largest = np.abs(rows).max(axis=0)
-        rows = rows + noise * largest * random.standard_normal(rows.shape)
-        share = noise / np.sqrt(len(TIMES) / 8)
-        with mock.patch.object(_calibrate, "simulate", once):
-            series = dict(zip(OUTPUTS, rows.T))
-            found = navvy.calibrate(scene, TIMES, series, noise=share, workers=1)
+        rows = measure(soil_of(scene, *truth))
+        rows += options.noise * np.abs(rows).max(axis=0) * random.standard_normal(rows.shape)
+        found = navvy.calibrate(
+            scene,
+            TIMES,
+            dict(zip(OUTPUTS, rows.T)),
+            windows=WINDOWS,
+            noise=share,
+            earlier=known,
+            html=options.html if trial + 1 == options.trials else None,
+        )
+        known = found.simulated
         inside.append((found.low <= truth) & (truth <= found.high))
         errors.append(np.abs(found.best - truth) / (1, truth[1]))
-        text = "%5d  %15.1f %7.1f (%.1f to %.1f)  %13.0f %7.0f (%.0f to %.0f) %7.2f  %.0f s"
         phi, c = (
             (truth[i], found.best[i], found.low[i], found.high[i]) for i in range(len(truth))
         )
-        print(text % (trial, *phi, *c, found.misfit, time.perf_counter() - begun), flush=True)
-    errors, inside = np.array(errors), np.sum(inside, axis=0)
-    print("phi: largest error %.2f deg, held %d of %d" % (errors[:, 0].max(), inside[0], trials))
-    print("c: largest error %.0f %%, held %d of %d" % (100 * errors[:, 1].max(), inside[1], trials))
+        text = "%5d  %15.1f %7.1f (%.1f to %.1f)  %13.0f %7.0f (%.0f to %.0f) %7.2f"
+        text += "  %d runs, %.0f s"
+        took = time.perf_counter() - begun
+        print(text % (trial, *phi, *c, found.misfit, found.runs, took), flush=True)
+    text = "%s: error median %.2g, largest %.2g %s; %d of %d intervals hold the truth"
+    for name, unit, column, scale in (("phi", "deg", 0, 1), ("c", "%", 1, 100)):
+        one = scale * np.array(errors)[:, column]
+        held = np.array(inside)[:, column].sum()
+        print(text % (name, np.median(one), one.max(), unit, held, options.trials))
 
 
 if __name__ == "__main__":
-    main(*(kind(word) for kind, word in zip((int, float, int), sys.argv[1:])))
+    main()

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures what calls from Python cost; prints the table of python/README.md.
 
-    python3 python/bench.py [seconds of simulated time before the digging world is measured]
+    python3 python/bench.py                     # calls, arrays, snapshots, memory, rollouts
+    python3 python/bench.py --environments      # steps per second of the environment Navvy/Dig-v0
 """
+import argparse
 import os
 import sys
 import time
@@ -12,6 +14,7 @@ import numpy as np
 # The sources of the package stand beside this file; the installed one has the extension.
 sys.path.pop(0)
 import navvy  # noqa: E402
+from navvy.digging import MACHINE, joint_channels  # noqa: E402
 
 
 def best(call, count=1, rounds=7):
@@ -31,7 +34,6 @@ def row(name, seconds, wanted=""):
 
 
 def main(until):
-    print("| measure | measured | at most |\n|---|---|---|")
     start = time.perf_counter()
     world = navvy.Session("trench")
     row("first session of the process", time.perf_counter() - start)
@@ -48,7 +50,6 @@ def main(until):
     dig(world)
     memory(world)
     rollouts(world)
-    environments()
 
 
 def dig(world):
@@ -113,33 +114,79 @@ def memory(world, count=64):
         one.close()
 
 
+DOWN, PULL, AIR = (-0.5, 0, 0, 0), (-0.1, -0.6, -0.1, 0), (0.1, 0, 0, 0)
+
+
+def repeat(envs, action, steps):
+    """Steps all members by one action; returns their steps per second."""
+    actions = np.tile(np.float32(action), (envs.num_envs, 1))
+    start = time.perf_counter()
+    for _ in range(steps):
+        envs.step(actions)
+    return envs.num_envs * steps / (time.perf_counter() - start)
+
+
+def by_rollout(envs, steps):
+    """Returns how many steps per second a rollout takes from the states of all members, which are
+    saved for each step. A rollout returns outputs and no states, so that it could not carry the
+    environment.
+    """
+    members = [one.world for one in envs.members]
+    limits = [one.high for one in members[0].inputs]
+    inputs = [members[0].input(name) for name in joint_channels("velocity")]
+    row = np.array(PULL) * [limits[i] for i in inputs]
+    controls = np.tile(row, (len(members), 1, 1))
+    outputs = [members[0].output(MACHINE + "/bucket/payload")]
+    start = 0.0
+    for turn in range(steps + 1):
+        states = [one.save() for one in members]
+        navvy.rollout(
+            members[0],
+            controls,
+            inputs=inputs,
+            outputs=outputs,
+            steps=round(0.1 / members[0].dt),
+            states=states,
+        )
+        # The first one builds the worlds that the others use again.
+        start = start or time.perf_counter()
+    return len(members) * steps / (time.perf_counter() - start)
+
+
 def environments():
     """Prints steps per second of environments, in the air and in soil."""
     import gymnasium
 
     import navvy.env  # noqa: F401  registers the environment
 
-    down, pull = (-0.5, 0, 0, 0), (-0.1, -0.6, -0.1, 0)
+    print("| worlds | in the air | in soil | in soil, each step a rollout | reset of one |")
+    print("|---|---|---|---|---|")
     for count in (1, 2, 4):
         envs = gymnasium.make_vec("Navvy/Dig-v0", num_envs=count, worlds=1)
-        rates = []
-        for before, action, steps in ((0, (0.1, 0, 0, 0), 20), (9, pull, 20)):
+        envs.reset(seed=0)
+        air, soil, rolled = [], [], []
+        for _ in range(3):
+            resets = best(lambda: envs.reset(seed=0), rounds=3) / count
+            air.append(repeat(envs, AIR, 20))
             envs.reset(seed=0)
-            for _ in range(before):
-                envs.step(np.tile(np.float32(down), (count, 1)))
-            start = time.perf_counter()
-            for _ in range(steps):
-                envs.step(np.tile(np.float32(action), (count, 1)))
-            rates.append(count * steps / (time.perf_counter() - start))
-        resets = best(lambda: envs.reset(seed=0), rounds=3) / count
-        print(
-            "| %d environments: steps of 0.1 s per second, in the air, in soil | %.0f, %.0f | |"
-            % (count, *rates),
-            flush=True,
-        )
-        row("reset of one of them", resets, "5 ms")
+            repeat(envs, DOWN, 9)
+            soil.append(repeat(envs, PULL, 20))
+            envs.reset(seed=0)
+            repeat(envs, DOWN, 9)
+            repeat(envs, PULL, 10)
+            rolled.append(by_rollout(envs, 10))
+        cells = tuple(np.median(one) for one in (air, soil, rolled))
+        print("| %d | %.1f | %.1f | %.1f | %.1f ms |" % (count, *cells, 1e3 * resets), flush=True)
         envs.close()
 
 
 if __name__ == "__main__":
-    main(float(sys.argv[1]) if len(sys.argv) > 1 else 20)
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--environments", action="store_true", help="measure environments only")
+    parser.add_argument("--until", type=float, default=20, help="time of the digging world [s]")
+    arguments = parser.parse_args()
+    if arguments.environments:
+        environments()
+    else:
+        print("| measure | measured | at most |\n|---|---|---|")
+        main(arguments.until)

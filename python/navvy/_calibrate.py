@@ -31,6 +31,32 @@ SOIL = {"soil.friction_angle_deg": (20.0, 42.0), "soil.cohesion_pa": (500.0, 100
 
 
 @dataclasses.dataclass
+class Simulated:
+    """Scenes that were simulated for a calibration."""
+
+    scene: str  #: the scene and its changes
+    names: list[str]  #: settings in which the scenes differ
+    outputs: list[str]  #: outputs that were read
+    times: np.ndarray  #: when [s]
+    points: np.ndarray  #: values of `names`, shape (n, names)
+    rows: np.ndarray  #: outputs of each scene, shape (n, times, outputs)
+
+    def fits(self, other: "Simulated") -> bool:
+        """Returns true if the scenes of both can be used together."""
+        same = (self.scene, self.names, self.outputs) == (other.scene, other.names, other.outputs)
+        return same and np.array_equal(self.times, other.times)
+
+    def inside(self, box: np.ndarray) -> np.ndarray:
+        """Returns true for each scene whose values are in a box."""
+        return ((self.points >= box[:, 0]) & (self.points <= box[:, 1])).all(axis=1)
+
+    def add(self, points: np.ndarray, rows: Sequence[np.ndarray]) -> None:
+        """Adds scenes."""
+        self.points = np.vstack([self.points, points])
+        self.rows = np.concatenate([self.rows, np.reshape(rows, (-1,) + self.rows.shape[1:])])
+
+
+@dataclasses.dataclass
 class Calibration:
     """Result of `calibrate`."""
 
@@ -40,12 +66,13 @@ class Calibration:
     high: np.ndarray  #: upper end
     level: float  #: share of the likelihood that an interval holds
     misfit: float  #: squared deviation of the best fit per free window; about 1 for a good fit
-    runs: int  #: number of simulated scenes
+    runs: int  #: number of scenes simulated for it
     times: np.ndarray  #: time of each sample [s]
     measured: dict[str, np.ndarray]  #: measured series by output, in the unit of the output
     fitted: dict[str, np.ndarray]  #: the same outputs of the scene with the best values
     points: np.ndarray  #: parameters of the scenes inside the last box, shape (n, names)
     likely: np.ndarray  #: parameters drawn by their likelihood, shape (n, names)
+    simulated: Simulated  #: all simulated scenes, for a later calibration of the same motion
 
     def __str__(self) -> str:
         rows = [
@@ -90,12 +117,12 @@ def _pool(workers: int):
     of one process do.
     """
     if workers == 1:
-        yield lambda tasks: list(map(simulate, *zip(*tasks)))
+        yield lambda tasks: [simulate(*task) for task in tasks]
         return
     # OpenCL does not survive a fork.
     spawn = multiprocessing.get_context("spawn")
     with concurrent.futures.ProcessPoolExecutor(workers, spawn, _one_thread) as pool:
-        yield lambda tasks: list(pool.map(simulate, *zip(*tasks)))
+        yield lambda tasks: [one.result() for one in [pool.submit(simulate, *t) for t in tasks]]
 
 
 def _windows(rows: np.ndarray, count: int) -> np.ndarray:
@@ -112,18 +139,20 @@ def _spread(count: int, box: np.ndarray, random: np.random.Generator) -> np.ndar
 class _Surface:
     """Quadratic surfaces through windows of simulated scenes, with their scatter."""
 
-    def __init__(self, points: np.ndarray, windows: np.ndarray, box: np.ndarray) -> None:
+    def __init__(
+        self, points: np.ndarray, windows: np.ndarray, box: np.ndarray, noise: np.ndarray
+    ) -> None:
+        """Fits the surfaces; `noise` is the variance that the measurement adds to each window."""
         self._middle, self._half = box.mean(axis=1), 0.5 * (box[:, 1] - box[:, 0])
+        self._noise = np.diag(noise)
         terms = self._terms(points)
-        self.free = len(points) - terms.shape[1]
+        self._free = len(points) - terms.shape[1]
         self._inverse = np.linalg.pinv(terms.T @ terms)
         self._weights = self._inverse @ terms.T @ windows
         left = windows - terms @ self._weights
-        scatter = left.T @ left / self.free
-        # Few runs estimate correlations badly: half of each is kept.
-        own = np.diag(np.diag(scatter))
-        floor = 1e-12 * (np.square(windows).mean() + 1e-300) * np.eye(len(own))
-        self._scatter = 0.5 * (scatter + own) + floor
+        products = left.T @ left
+        self._precision = self._invert(products / self._free)
+        self._excess = self._find_excess(points, left, products)
 
     def _terms(self, points: np.ndarray) -> np.ndarray:
         x = (points - self._middle) / self._half
@@ -131,23 +160,51 @@ class _Surface:
         squares = [x[:, i] * x[:, j] for i in range(count) for j in range(i, count)]
         return np.column_stack([np.ones(len(x)), x, *squares])
 
-    def deviation(self, points: np.ndarray, wanted: np.ndarray, noise: np.ndarray):
-        """Returns the squared deviation of each point's windows from the measured ones, in units of
-        the scatter, to which the variance of the measurement is added; and the factor by which
-        the variance is larger at each point, as the surfaces are uncertain themselves.
+    def _slopes(self, point: np.ndarray) -> np.ndarray:
+        """Returns the slopes of all windows at a point, shape (names, windows)."""
+        steps = 1e-3 * np.diag(self._half)
+        return 500 * (self._terms(point + steps) - self._terms(point - steps)) @ self._weights
+
+    def _invert(self, scatter: np.ndarray) -> np.ndarray:
+        """Returns the inverse covariance of a window's deviation."""
+        # Few runs estimate correlations badly: half of each is kept.
+        own = np.diag(np.diag(scatter))
+        floor = 1e-9 * np.trace(own + self._noise) / len(own) + 1e-300
+        return np.linalg.inv(0.5 * (scatter + own) + self._noise + floor * np.eye(len(own)))
+
+    def _find_excess(self, points, left, products) -> float:
+        """Returns the factor by which squared errors of fitted parameters exceed those expected.
+
+        Each simulated scene is fitted as if it were the measurement, by surfaces through the other
+        ones. The covariance alone promises too little error: it is estimated from few scenes, and
+        the surfaces are uncertain themselves.
         """
-        terms = self._terms(points)
-        left = wanted - terms @ self._weights
-        spread = 1 + np.einsum("ij,jk,ik->i", terms, self._inverse, terms)
-        inverse = np.linalg.inv(self._scatter + np.diag(noise))
-        return np.einsum("ij,jk,ik->i", left, inverse, left) / spread, spread
+        terms, errors = self._terms(points), []
+        leverage = np.einsum("ij,jk,ik->i", terms, self._inverse, terms)
+        for point, row, lever in zip(points, left, np.minimum(leverage, 0.9)):
+            # Residual and scatter without this scene, by the formulas of leaving one out.
+            others = products - np.outer(row, row) / (1 - lever)
+            precision = self._invert(others / max(1, self._free - 1))
+            slopes = self._slopes(point)
+            gain = precision @ slopes.T
+            share = gain @ np.linalg.solve(slopes @ gain, gain.T)
+            squared = row @ share @ row / (1 - lever) ** 2 + np.trace(share @ self._noise)
+            errors.append(squared / len(slopes))
+        return max(1.0, float(np.mean(errors)))
 
+    def deviation(self, points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+        """Returns the squared deviation of each point's windows from the measured ones, in units of
+        their variance.
+        """
+        left = wanted - self._terms(points) @ self._weights
+        return np.einsum("ij,jk,ik->i", left, self._precision, left)
 
-def _weigh(deviation: np.ndarray, spread: np.ndarray, free: int, count: int) -> np.ndarray:
-    """Returns the likelihood of each point, with the sum 1."""
-    logs = -0.5 * ((free + count) * np.log1p(deviation / free) + count * np.log(spread))
-    weights = np.exp(logs - logs.max())
-    return weights / weights.sum()
+    def likelihood(self, points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+        """Returns the likelihood of each point, with the sum 1."""
+        deviation = self.deviation(points, wanted)
+        scaled = (deviation - deviation.min()) / (self._excess * self._free)
+        weights = np.exp(-0.5 * (self._free + points.shape[1]) * np.log1p(scaled))
+        return weights / weights.sum()
 
 
 def _quantile(values: np.ndarray, weights: np.ndarray, share: float) -> float:
@@ -168,6 +225,7 @@ def calibrate(
     level: float = 0.95,
     workers: int = 0,
     seed: int = 1,
+    earlier: Simulated | None = None,
     html: str | os.PathLike | None = None,
 ) -> Calibration:
     """Fits `parameters` (settings such as "soil.cohesion_pa", with the box to search) to series.
@@ -175,10 +233,11 @@ def calibrate(
     `measured` holds a series per output of the scene, such as the force on a bucket or the force of
     a cylinder, at increasing `times` [s] after the scene's start. Means over `windows` parts of the
     series are compared; `noise` is the standard deviation of such a mean that the measurement
-    adds, as a share of the largest sample of its output. Each of the `rounds` simulates `samples`
-    scenes, in as many processes as `workers` (one per processor with 0, in this process with 1); a
-    script that calls it needs the usual `if __name__ == "__main__":`. `html` names a page that
-    shows the result.
+    adds, as a share of the largest sample of its output. Each of the `rounds` simulates scenes
+    until `samples` are in its box, in as many processes as `workers` (one per processor with 0, in
+    this process with 1); a script that calls it needs the usual `if __name__ == "__main__":`.
+    `earlier` holds the scenes simulated for another series of the same motion, which are used, too.
+    `html` names a page that shows the result.
 
     Raises ValueError for series, boxes or counts that do not fit, InputError for an unknown output
     or a value that the schema refuses, SimulationError if one of the scenes fails.
@@ -203,7 +262,14 @@ def calibrate(
     bounds = np.array([parameters[name] for name in names], dtype=float)
     if (bounds[:, 0] >= bounds[:, 1]).any():
         raise ValueError("a box must have its lower value first")
-    box, points, found = bounds, np.empty((0, count)), np.empty((0, len(wanted)))
+    box = bounds
+    empty = np.empty((0, count)), np.empty((0, len(times), len(outputs)))
+    known = Simulated(repr(scene), names, outputs, times, *empty)
+    if earlier is not None:
+        if not earlier.fits(known):
+            raise ValueError("earlier: other scene, parameters, outputs or times")
+        known.add(earlier.points, earlier.rows)
+    before = len(known.points)
 
     def scene_at(point):
         changed = scene.copy()
@@ -212,16 +278,15 @@ def calibrate(
 
     with _pool(workers or os.cpu_count() or 1) as each:
         for turn in range(rounds):
-            more = _spread(samples, box, random)
-            rows = each([(scene_at(point), outputs, times) for point in more])
-            points = np.vstack([points, more])
-            found = np.vstack([found, [_windows(one, windows) for one in rows]])
+            missing = max(0, samples - int(known.inside(box).sum()))
+            more = _spread(missing, box, random)
+            known.add(more, each([(scene_at(point), outputs, times) for point in more]))
             # Far from the present box the surfaces need not be quadratic.
-            near = ((points >= box[:, 0]) & (points <= box[:, 1])).all(axis=1)
-            surface = _Surface(points[near], found[near], box)
+            near = known.inside(box)
+            found = np.array([_windows(one, windows) for one in known.rows[near]])
+            surface = _Surface(known.points[near], found, box, variance)
             tried = _spread(40000, box, random)
-            deviation, factor = surface.deviation(tried, wanted, variance)
-            weights = _weigh(deviation, factor, surface.free, len(wanted))
+            weights = surface.likelihood(tried, wanted)
             best = weights @ tried
             spread = np.sqrt(weights @ np.square(tried - best))
             if turn + 1 < rounds:
@@ -240,13 +305,14 @@ def calibrate(
         np.array(low),
         np.array(high),
         level,
-        float(deviation.min()) / max(1, len(wanted) - count),
-        len(points) + 1,
+        float(surface.deviation(tried, wanted).min()) / max(1, len(wanted) - count),
+        len(known.points) - before + 1,
         times,
         series,
         dict(zip(outputs, fitted.T)),
-        points[near],
+        known.points[near],
         tried[random.choice(len(tried), 400, p=weights)],
+        known,
     )
     if html is not None:
         write_page(html, result, scene._data.name, bounds)

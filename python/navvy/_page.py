@@ -119,7 +119,9 @@ def write_page(
         % (result.misfit, result.runs),
     ]
     for name, low, high, (least, most) in zip(result.names, result.low, result.high, bounds):
-        if low - least < 0.01 * (most - least) or most - high < 0.01 * (most - least):
+        # A likelihood that the box cuts off ends close to its edge.
+        close = max(0.01 * (most - least), 0.1 * (high - low))
+        if low - least < close or most - high < close:
             parts.append(
                 "<p><b>%s reaches the edge of the searched box, %.4g to %.4g: widen it.</b></p>"
                 % (html.escape(name), least, most)

@@ -69,6 +69,16 @@ class Fit(unittest.TestCase):
         self.assertIn("%.4g" % found.best[0], text)
         self.assertIn("soil.cohesion_pa", str(found))
 
+    def test_uses_scenes_of_an_earlier_fit_again(self):
+        first = self.fit(30, 6000, seed=1)
+        again = self.fit(30, 6000, seed=2, earlier=first.simulated)
+        self.assertLess(again.runs, first.runs / 2)
+        self.assertEqual(len(again.simulated.points), len(first.simulated.points) + again.runs - 1)
+        self.assertTrue((again.low < (30, 6000)).all() and (again.high > (30, 6000)).all())
+        box = {NAMES[0]: (20.0, 42.0)}
+        with self.assertRaisesRegex(ValueError, "earlier"):
+            self.fit(30, 6000, seed=2, earlier=first.simulated, parameters=box)
+
     def test_reports_a_truth_outside_the_searched_box(self):
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder) / "fit.html"
