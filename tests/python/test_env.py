@@ -53,6 +53,10 @@ class Dig(unittest.TestCase):
         for scene in scenes:
             self.assertLessEqual(abs(scene.soil.cohesion_pa / plain.soil.cohesion_pa - 1), 0.3)
             self.assertTrue((np.abs(scene.machine[0].pose[:2]) <= 0.5).all())
+        ratios = {
+            round(scene.soil.residual_cohesion_pa / scene.soil.cohesion_pa, 6) for scene in scenes
+        }
+        self.assertEqual(len(ratios), 1)
         env = dig.DigEnv(worlds=4)
         heights = []
         for number in range(3):
