@@ -37,7 +37,7 @@ def scene_of(number: int, share: float) -> Scene:
         return scene
     random = np.random.default_rng(number)
     scene = vary_scene(scene, random, share, _STANCE)
-    height = scene.ground.hills.height_m * random.uniform(0.25, 1)
+    height = scene.ground.shape[0].height_m * random.uniform(0.25, 1)
     scene.update({"ground.hills.seed": number, "ground.hills.height_m": height})
     return scene
 
