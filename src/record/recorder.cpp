@@ -2,6 +2,7 @@
 #include "record/recorder.h"
 
 #include <exception>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -70,6 +71,8 @@ struct Recorder::State {
   void checkpoint(bool force);
   void write_summary(bool with_hash);
   void write_paths();
+  /// Writes the rest of every file but the summary; `attempt` runs each part.
+  void finish_files(bool failed, const std::function<void(const std::function<void()>&)>& attempt);
   std::string summary(bool with_hash) const { return summary_json(session, status, with_hash); }
   void write_start();
   void write_description();
@@ -257,6 +260,35 @@ void Recorder::restart() {
   s.maps->observe();
 }
 
+void Recorder::State::finish_files(
+    bool failed, const std::function<void(const std::function<void()>&)>& attempt) {
+  attempt([&] { move_out(); });
+  // The state at the failure, for analysis.
+  if (failed) attempt([&] { session.save(path("failed.snapshot")); });
+  // Waits for the thread that encodes.
+  attempt([&] {
+    const Lap lap(status.render_time);
+    picture_files.finish();
+  });
+  status.encode_time = picture_files.processor_time();
+  attempt([&] {
+    if (hashes) hashes->finish();
+  });
+  attempt([&] {
+    if (maps) maps->finish();
+  });
+  // The final ground, also of a failed run.
+  attempt([&] { write_terrain(session.world(), path("terrain_end.tif")); });
+  attempt([&] { telemetry.checkpoint(true); });
+  attempt([&] { arrays.checkpoint(true); });
+  attempt([&] {
+    if (!replay) return;
+    replay->finish();
+    replay->checkpoint(true);
+  });
+  attempt([&] { write_paths(); });
+}
+
 void Recorder::finish(const std::string& status, const std::string& message) {
   State& s = *state_;
   // A failure while finishing must not write a second, different summary.
@@ -282,31 +314,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
       if (!first) first = std::current_exception();
     }
   };
-  attempt([&] { s.move_out(); });
-  // The state at the failure, for analysis.
-  if (status == "failed") attempt([&] { s.session.save(s.path("failed.snapshot")); });
-  // Waits for the thread that encodes.
-  attempt([&] {
-    const Lap lap(s.status.render_time);
-    s.picture_files.finish();
-  });
-  s.status.encode_time = s.picture_files.processor_time();
-  attempt([&] {
-    if (s.hashes) s.hashes->finish();
-  });
-  attempt([&] {
-    if (s.maps) s.maps->finish();
-  });
-  // The final ground, also of a failed run.
-  attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
-  attempt([&] { s.telemetry.checkpoint(true); });
-  attempt([&] { s.arrays.checkpoint(true); });
-  attempt([&] {
-    if (!s.replay) return;
-    s.replay->finish();
-    s.replay->checkpoint(true);
-  });
-  attempt([&] { s.write_paths(); });
+  s.finish_files(status == "failed", attempt);
   std::string text;
   bool written = false;
   attempt([&] {

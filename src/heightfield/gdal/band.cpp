@@ -22,6 +22,7 @@ bool read_band(const std::string& file, const std::string& name, int nx, int ny,
   };
   const std::vector<std::string> beside = files_beside(file);
   std::vector<const char*> siblings;
+  siblings.reserve(beside.size() + 1);
   for (const std::string& one : beside) siblings.push_back(one.c_str());
   siblings.push_back(nullptr);
   const char* const drivers[] = {"GTiff", nullptr};
