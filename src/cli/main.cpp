@@ -124,6 +124,20 @@ int guarded(const cli::Action& action) {
   }
 }
 
+/// Closes the help of the program.
+constexpr const char* kFooter =
+    "Exit status: 0 done, 1 internal error, 2 invalid input, 3 no or failing OpenCL device, 4 a "
+    "file could not\n"
+    "be written, 5 the simulation failed (it leaves failed.snapshot), 6 the run ended before a "
+    "program of it did\n"
+    "(see programs in summary.json), 7 `navvy lab` measured a result outside its "
+    "tolerance, 8 an event\n"
+    "that the scene forbids (navvy:forbid) ended the run, 9 the run missed a goal of the scene "
+    "(navvy:goals), 130\n"
+    "interrupted (Ctrl-C, SIGTERM, SIGHUP, a controller that went away); above 130 a crash, "
+    "which is reported.\n"
+    "docs/README.md lists all pages; docs/reference/scene.md has the elements of scene files.";
+
 /// Parses the command line and runs the command.
 int run(int argc, char** argv) {
   // The help begins with the command that a newcomer types.
@@ -133,18 +147,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", NAVVY_VERSION);
   // Parsing only fills `action`, which runs after the whole command line is known to be valid.
   app.require_subcommand(1);
-  app.footer(
-      "Exit status: 0 done, 1 internal error, 2 invalid input, 3 no or failing OpenCL device, 4 a "
-      "file could not\n"
-      "be written, 5 the simulation failed (it leaves failed.snapshot), 6 the run ended before a "
-      "program of it did\n"
-      "(see programs in summary.json), 7 `navvy lab` measured a result outside its "
-      "tolerance, 8 an event\n"
-      "that the scene forbids (navvy:forbid) ended the run, 9 the run missed a goal of the scene "
-      "(navvy:goals), 130\n"
-      "interrupted (Ctrl-C, SIGTERM, SIGHUP, a controller that went away); above 130 a crash, "
-      "which is reported.\n"
-      "docs/README.md lists all pages; docs/reference/scene.md has the elements of scene files.");
+  app.footer(kFooter);
   // The chosen subcommand fills the action.
   cli::Action action;
   // The command line is recorded in the folder of a run.
