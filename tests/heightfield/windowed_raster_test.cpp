@@ -134,6 +134,7 @@ TEST(WindowedRaster, AnswersSeveralThreadsAtOnce) {
   const WindowedRaster windows = windows_of(whole, 2);
   std::vector<int> wrong(4, 0);
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int t = 0; t < 4; ++t)
     threads.emplace_back([&, t] {
       for (int i = 0; i < 4000; ++i) {
