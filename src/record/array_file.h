@@ -2,79 +2,43 @@
 // A NumPy file to which one record is appended for each published value of an array.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 
+#include "record/record_file.h"
 #include "sim/array_outputs.h"
 
 namespace navvy::record {
 
-/// Appends the published values of one array to a .npy file.
+/// Appends the published values of one array to a .npy file (record_file.h).
 ///
-/// `rows = numpy.load(path)` returns a structured array with one record per value. The fields are
-/// `sequence` (uint64), `time_s` [s], `position_m` (3 numbers) and `quaternion_wxyz` (4 numbers)
-/// for the pose of the array's frame in W, and `values` with the shape and element type of the
-/// array. Records are in the order of publication.
-///
-/// Each record is written once. At most about 1 MiB of records, or one record if it is larger, is
-/// buffered in memory, so the memory use does not grow with the run. The record count in the file
-/// header is updated after the records have been written: a kill at any moment leaves a file that
-/// can be loaded and that lacks at most the latest records.
+/// The fields of a record are `sequence` (uint64), `time_s` [s], `position_m` (3 numbers) and
+/// `quaternion_wxyz` (4 numbers) for the pose of the array's frame in W, and `values` with the
+/// shape and element type of the array. Records are in the order of publication.
 class ArrayFile {
  public:
-  /// Size of the buffer [bytes] at which `add` writes the buffered records to the file.
-  static constexpr std::size_t kMaxWaiting = std::size_t{1} << 20;
-
   /// Prepares the file `path` for values of the array `channel`, without writing to it.
   ArrayFile(std::string path, const sim::ArrayChannel& channel);
-  /// Closes the file. Buffered records that were not written with `flush` or `sync` are lost.
-  ~ArrayFile();
-  ArrayFile(const ArrayFile&) = delete;
-  ArrayFile& operator=(const ArrayFile&) = delete;
 
-  /// Appends the current value of the array to the buffer. Calls `flush` when the buffer has
-  /// reached kMaxWaiting bytes.
-  /// @throws FileError if that call fails.
+  /// Appends the current value of the array to the buffer.
+  /// @throws FileError if the buffer is full and cannot be written.
   void add(const sim::ArrayView& value);
-  /// Writes the buffered records to the file and updates the header. The first call replaces an
-  /// existing file.
-  /// @throws FileError if writing fails; the records stay in the buffer, and the next call writes
-  /// them again.
-  void flush();
+  /// Writes the buffered records to the file.
+  /// @throws FileError if writing fails.
+  void flush() { file_.flush(); }
   /// Writes the buffered records and waits until the file is stored on the disk.
   /// @throws FileError if writing fails.
-  void sync();
-  /// Continues in a new file at `path`, which gets a copy of all records; for a folder that was
-  /// removed while the file was open.
-  /// @throws FileError if the records cannot be copied; the file then stays where it was.
-  void move_to(const std::string& path);
+  void sync() { file_.sync(); }
+  /// Continues in a copy of the file at `path`.
+  /// @throws FileError if the records cannot be copied.
+  void move_to(const std::string& path) { file_.move_to(path); }
   /// Returns the number of records that were added.
-  std::uint64_t records() const { return records_; }
+  std::uint64_t records() const { return file_.records(); }
 
  private:
-  /// Throws a FileError for a failed system call; `code` is its errno and `action` the verb for the
-  /// message ("open").
-  [[noreturn]] void fail(const char* action, int code) const;
-  /// Writes the buffered records to the file, then the header with the new record count.
-  void append();
-
-  /// Path of the file.
-  std::string path_;
-  /// Type of a record in NumPy's notation.
-  std::string descr_;
-  /// Buffered records, which are not in the file yet.
-  std::string waiting_;
-  /// Size of one record [bytes].
-  std::size_t record_bytes_ = 0;
-  /// Size of the file header [bytes]; 0 before the first write.
-  std::size_t header_bytes_ = 0;
-  /// Number of records that were added.
-  std::uint64_t records_ = 0;
-  /// Number of records in the file.
-  std::uint64_t written_ = 0;
-  /// File descriptor, open after the first write; -1 before.
-  int file_ = -1;
+  RecordFile file_;
+  /// The current record; kept to reuse its memory.
+  std::string record_;
 };
 
 }  // namespace navvy::record

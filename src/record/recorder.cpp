@@ -34,7 +34,7 @@ struct Recorder::State {
         options(std::move(o)),
         folder(std::move(f)),
         crash_summary(std::in_place, folder->path("summary.reserve"), folder->path("summary.json")),
-        telemetry(s, folder->path("telemetry.csv")),
+        telemetry(s, folder->path("telemetry.csv"), folder->path("telemetry.npy")),
         arrays(s, *folder),
         pictures(s),
         picture_files(*folder, options.picture_format) {
@@ -127,7 +127,7 @@ void Recorder::State::move_out() {
   if (folder->intact()) return;
   const std::string lost = folder->directory();
   folder->move_out();
-  telemetry.move_to(path("telemetry.csv"));
+  telemetry.move_to(path("telemetry.csv"), path("telemetry.npy"));
   if (replay) replay->move_to(path("replay.jsonl"));
   if (hashes) hashes->move_to(path("hashes.csv"));
   arrays.move_out();

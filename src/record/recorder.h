@@ -47,14 +47,14 @@ double wall_time_left(double simulated, double real_time_factor);
 
 /// Records the results of a session into a folder.
 ///
-/// It writes scene.sdf and run.json (run_info.h), summary.json, telemetry.csv, terrain_start.tif
-/// and terrain_end.tif. The summary contains the hash of the state only at the start and at the end
-/// of the run. replay.jsonl (replay_recorder.h) shows it again. On request it also writes
-/// hashes.csv, pictures in frames/ (picture_files.h), each array output as arrays/<name>.npy
-/// (array_recorder.h), and the maps and bags that the scene asks for (map_recorder.h). If operators
-/// have planned paths, it writes paths.csv, and after a failure failed.snapshot. The memory use
-/// does not grow with the run. Not thread-safe; pictures are drawn on the calling thread and
-/// encoded on another one.
+/// It writes scene.sdf and run.json (run_info.h), summary.json, telemetry.csv and telemetry.npy,
+/// terrain_start.tif and terrain_end.tif. The summary contains the hash of the state only at the
+/// start and at the end of the run. replay.jsonl (replay_recorder.h) shows it again. On request it
+/// also writes hashes.csv, pictures in frames/ (picture_files.h), each array output as
+/// arrays/<name>.npy (array_recorder.h), and the maps and bags that the scene asks for
+/// (map_recorder.h). If operators have planned paths, it writes paths.csv, and after a failure
+/// failed.snapshot. The memory use does not grow with the run. Not thread-safe; pictures are drawn
+/// on the calling thread and encoded on another one.
 class Recorder {
  public:
   /// Creates the folder and writes the files for the start of the run. `folder` is a run folder

@@ -26,9 +26,10 @@ const std::string kHead = "navvy run folder 1";
 const std::string kMoving = kHead + " moving";
 /// Names of the files that runs write. A file of such a name that no list contains is of another
 /// origin.
-const char* const kNames[] = {
-    "scene.sdf",         "run.json",        "summary.json",    "telemetry.csv",   "hashes.csv",
-    "terrain_start.tif", "terrain_end.tif", "failed.snapshot", "summary.reserve", "replay.jsonl"};
+const char* const kNames[] = {"scene.sdf",         "run.json",        "summary.json",
+                              "telemetry.csv",     "telemetry.npy",   "hashes.csv",
+                              "terrain_start.tif", "terrain_end.tif", "failed.snapshot",
+                              "summary.reserve",   "replay.jsonl"};
 
 /// Removes the slash at the end that shells complete: ".previous" is appended to the name.
 std::string clean(const std::string& directory) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cli/program_run.h"
+#include "cli/telemetry_table.h"
 #include "core/random.h"
 
 namespace navvy {
@@ -98,6 +99,7 @@ TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
                            "run.json", "replay.jsonl", "report.html"})
     EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
   expect_readable(out());
+  test::expect_same_table(out(), 1);
 }
 
 TEST_F(Program, RepeatsARunFromTheSceneInItsFolder) {
@@ -123,7 +125,8 @@ TEST_F(Program, RepeatsARunFromTheSceneInItsFolder) {
   EXPECT_GT(again.at("particles_peak").get<int>(), 0) << "it never reached the soil";
   EXPECT_EQ(again.at("steps"), first.at("steps"));
   EXPECT_EQ(again.at("state_hash"), first.at("state_hash"));
-  EXPECT_EQ(text_of(out() + "2/telemetry.csv"), text_of(out() + "/telemetry.csv"));
+  for (const char* name : {"/telemetry.csv", "/telemetry.npy"})
+    EXPECT_EQ(text_of(out() + "2" + name), text_of(out() + name)) << name;
   EXPECT_EQ(text_of(out() + "2/scene.sdf"), text_of(out() + "/scene.sdf"));
 }
 

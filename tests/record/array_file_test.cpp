@@ -58,9 +58,9 @@ TEST_F(ArrayFileTest, WritesWhenAMebibyteIsPending) {
   const std::string path = folder_ / "a.npy";
   ArrayFile file(path, outputs_.channels()[0]);
   publish(1);
-  const std::size_t enough = ArrayFile::kMaxWaiting / kRecord + 1;
+  const std::size_t enough = RecordFile::kMaxWaiting / kRecord + 1;
   for (std::size_t i = 0; i < enough; ++i) file.add(outputs_.view(0));
-  EXPECT_GE(text_of(path).size(), ArrayFile::kMaxWaiting);
+  EXPECT_GE(text_of(path).size(), RecordFile::kMaxWaiting);
 }
 
 }  // namespace
