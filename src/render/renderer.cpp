@@ -4,6 +4,7 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/actions/SoGLRenderAction.h>
 #include <Inventor/elements/SoGLCacheContextElement.h>
+#include <Inventor/nodes/SoCallback.h>
 #include <Inventor/nodes/SoDirectionalLight.h>
 #include <Inventor/nodes/SoEnvironment.h>
 #include <Inventor/nodes/SoMatrixTransform.h>
@@ -15,11 +16,12 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "render/body_shader.h"
+#include "render/body_shadows.h"
 #include "render/gl_context.h"
 #include "render/gl_draw.h"
 #include "render/overlay_layer.h"
 #include "render/particle_mesh.h"
-#include "render/shadow_map.h"
 #include "render/shape_cache.h"
 #include "render/soil_surface.h"
 #include "render/terrain_mesh.h"
@@ -28,14 +30,6 @@
 
 namespace navvy::render {
 namespace {
-
-/// An object for Coin to draw: a cached body at a pose that may stretch it. Two equal ones cast the
-/// same shadow, which is why they are compared.
-struct Placed {
-  const Shape* shape;
-  Eigen::Matrix4f X_WS;
-  bool operator==(const Placed& o) const { return shape == o.shape && X_WS == o.X_WS; }
-};
 
 SbColor to_coin(const Vec3f& c) { return {c.x(), c.y(), c.z()}; }
 
@@ -58,6 +52,18 @@ Eigen::Matrix4f stretch(const Vec3& from, const Vec3& axis, double length, doubl
   m.block<3, 1>(0, 2) = axis.cross(side) * radius;
   m.block<3, 1>(0, 3) = from;
   return m.cast<float>();
+}
+
+/// Returns a node that draws a body at its place.
+SoSeparator* node_of(const PlacedShape& body) {
+  auto* node = new SoSeparator;
+  node->renderCaching = SoSeparator::OFF;
+  node->renderCulling = SoSeparator::OFF;
+  auto* transform = new SoMatrixTransform;
+  transform->matrix = to_coin(body.X_WS);
+  node->addChild(transform);
+  node->addChild(body.shape->node);
+  return node;
 }
 
 /// Returns distances along the camera's axis from the depth buffer, whose first row is the bottom
@@ -116,15 +122,12 @@ class Renderer::Impl {
   GlContext context_;
   GlDraw draw_;
   TerrainMesh terrain_;
-  ShadowMap shadows_;
+  BodyShadows shadows_;
+  BodyShader shader_;
   SoilSurface soil_;
   ParticleMesh particles_;
   ShapeCache shapes_;
-  std::vector<Placed> placed_;
-  /// Content of the shadow map, with `falling_` under `shadow_lighting_`.
-  std::vector<Placed> casters_;
-  std::vector<Vec3f> falling_;
-  Lighting shadow_lighting_;
+  std::vector<PlacedShape> placed_;
   SoSeparator* root_ = nullptr;
   SoPerspectiveCamera* camera_ = nullptr;
   SoEnvironment* environment_ = nullptr;
@@ -189,19 +192,7 @@ void Renderer::Impl::place(const scene::Frame& frame) {
 }
 
 void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lighting) {
-  // Box around all casters in W, from the corners of their own boxes: larger than needed if they
-  // are rotated, never smaller.
-  Vec3f low = Vec3f::Constant(1e30f), high = -low;
-  for (const Placed& p : placed_)
-    // Stretched bodies are transformed as well, so the corners follow scale and pose.
-    for (int k = 0; k < 8; ++k) {
-      const Vec3f corner((k & 1) ? p.shape->high.x() : p.shape->low.x(),
-                         (k & 2) ? p.shape->high.y() : p.shape->low.y(),
-                         (k & 4) ? p.shape->high.z() : p.shape->low.z());
-      const Vec3f w = (p.X_WS * corner.homogeneous()).head<3>();
-      low = low.cwiseMin(w);
-      high = high.cwiseMax(w);
-    }
+  if (!options_.shadows) return shadows_.clear(placed_, lighting);
   // Only soil in the air casts a shadow here; soil on the ground would only darken the ground right
   // below it.
   const std::vector<float>& xyz = frame.particles.position;
@@ -216,47 +207,37 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
         p.z() < height + 0.3f)
       continue;
     falling.push_back(p);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
   }
-  // Another camera at the same time reuses the shadow.
-  if (casters_ == placed_ && falling_ == falling && shadow_lighting_ == lighting &&
-      shadows_.version() != 0)
-    return;
-  casters_ = placed_;
-  falling_ = falling;
-  shadow_lighting_ = lighting;
-  // No casters: an empty map reports everything as lit.
-  if (!(low.x() <= high.x()) || !options_.shadows) {
-    shadows_.begin(lighting, Vec3f::Zero(), Vec3f::Ones());
-    return;
-  }
-  shadows_.begin(lighting, low, high);
-  for (const Placed& p : placed_) {
-    const Eigen::Matrix3f turn = p.X_WS.topLeftCorner<3, 3>();
-    const Vec3f at = p.X_WS.topRightCorner<3, 1>();
-    for (const bool solid : {true, false}) {
-      const std::vector<Vec3f>& t = solid ? p.shape->solid_triangles : p.shape->open_triangles;
-      for (std::size_t i = 0; i + 2 < t.size(); i += 3)
-        shadows_.add_triangle(turn * t[i] + at, turn * t[i + 1] + at, turn * t[i + 2] + at, solid);
-    }
-  }
-  for (const Vec3f& p : falling) shadows_.add_point(p, static_cast<float>(frame.particles.radius));
-  shadows_.finish();
+  shadows_.update(placed_, falling, static_cast<float>(frame.particles.radius), lighting);
 }
 
 void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& camera,
                                    const Lighting& lighting) {
   machines_->removeAllChildren();
-  for (const Placed& p : placed_) {
-    auto* group = new SoSeparator;
-    group->renderCaching = SoSeparator::OFF;
-    group->renderCulling = SoSeparator::OFF;
-    auto* transform = new SoMatrixTransform;
-    transform->matrix = to_coin(p.X_WS);
-    group->addChild(transform);
-    group->addChild(p.shape->node);
-    machines_->addChild(group);
+  const Eigen::Matrix4f X_CW =
+      Eigen::Map<const Eigen::Matrix4d>(view.model_view.data()).cast<float>();
+  // Called by Coin before it draws the bodies of a group, and again before transparent ones.
+  struct Lit {
+    BodyShader* shader;
+    const ShadowMap* shadows;
+    const Eigen::Matrix4f* X_CW;
+  };
+  std::vector<Lit> lit;
+  lit.reserve(shadows_.groups().size());
+  for (const BodyShadows::Group& group : shadows_.groups()) {
+    auto* together = new SoSeparator;
+    together->renderCaching = SoSeparator::OFF;
+    lit.push_back({&shader_, group.shadows, &X_CW});
+    auto* before = new SoCallback;
+    before->setCallback(
+        [](void* data, SoAction*) {
+          const Lit& one = *static_cast<const Lit*>(data);
+          one.shader->use(*one.shadows, *one.X_CW);
+        },
+        &lit.back());
+    together->addChild(before);
+    for (const std::size_t b : group.bodies) together->addChild(node_of(placed_[b]));
+    machines_->addChild(together);
   }
   const Eigen::Quaternionf q(camera.X_WC.linear().cast<float>());
   camera_->position = SbVec3f(view.eye.x(), view.eye.y(), view.eye.z());
@@ -289,6 +270,9 @@ void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& c
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_NORMALIZE);
   action.apply(root_);
+  shader_.stop();
+  // The callbacks refer to this call.
+  machines_->removeAllChildren();
 }
 
 void Renderer::Impl::draw_overlay(const View& view, const scene::FrameOverlay& overlay) {
@@ -320,12 +304,12 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
     tiles.push_back(terrain_.surroundings(lighting));
   for (const GroundPart& tile : tiles) stats.ground_triangles += static_cast<int>(tile.triangles());
   const double before_soil = watch.seconds();
-  const Mesh& soil = soil_.build(frame, lighting, shadows_, terrain_.surface());
+  const Mesh& soil = soil_.build(frame, lighting, shadows_.ground(), terrain_.surface());
   if (!soil.vertices.empty()) tiles.push_back(soil_.part());
   stats.soil_triangles = static_cast<int>((soil.indices.size() + soil.walls.size()) / 3);
   stats.soil_ms = 1e3 * (watch.seconds() - before_soil);
   const Mesh& lumps =
-      particles_.build(frame, lighting, shadows_, terrain_.surface(), view, soil_.lone());
+      particles_.build(frame, lighting, shadows_.ground(), terrain_.surface(), view, soil_.lone());
   stats.particles_drawn = particles_.drawn();
   stats.particle_triangles = static_cast<int>(lumps.indices.size() / 3);
   stats.tiles_rebuilt = terrain_.rebuilt();
@@ -336,7 +320,7 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   // Ground first, as it hides most of the sky; machines last, because Coin blends transparent parts
   // over the rest.
   draw_.begin(view, lighting);
-  draw_.ground(tiles, view, shadows_, lighting);
+  draw_.ground(tiles, view, shadows_.ground(), lighting);
   draw_.lumps(lumps);
   draw_.sky(view, lighting);
   draw_.end();

@@ -122,15 +122,37 @@ void smooth(const std::uint8_t* __restrict in, std::uint8_t* __restrict out, int
 void ShadowMap::finish() {
   mask_.resize(nearest_.size());
   blur_.assign(nearest_.size(), 255);
-  for (std::size_t i = 0; i < nearest_.size(); ++i) mask_[i] = nearest_[i] > kNothing ? 0 : 255;
+  lowest_ = 1e30f;
+  highest_ = -lowest_;
+  for (std::size_t i = 0; i < nearest_.size(); ++i) {
+    mask_[i] = nearest_[i] > kNothing ? 0 : 255;
+    if (mask_[i] != 0) continue;
+    lowest_ = std::min(lowest_, nearest_[i]);
+    highest_ = std::max(highest_, nearest_[i]);
+  }
+  // A margin, so that depth 0 is below all casters; half a metre keeps the scale finite.
+  lowest_ = used_ && lowest_ < highest_ ? lowest_ - 0.5f : 0;
+  highest_ = std::max(highest_, lowest_ + 0.5f);
   // Rows run on into each other, because their ends are margin and lit.
   constexpr int kInner = (kSize - 4) * kSize - 4;
   smooth(&mask_[2 * kSize + 2], &blur_[2 * kSize + 2], kInner, 1);
   smooth(&blur_[2 * kSize + 2], &mask_[2 * kSize + 2], kInner, kSize);
 }
 
-bool ShadowMap::reaches(const Vec3f& low, const Vec3f& high) const {
-  if (!used_) return false;
+Eigen::Vector4f ShadowMap::plane_r() const {
+  const float scale = 1 / (highest_ - lowest_);
+  return {scale * to_sun_.x(), scale * to_sun_.y(), scale * to_sun_.z(), -scale * lowest_};
+}
+
+std::vector<float> ShadowMap::depths() const {
+  std::vector<float> out(nearest_.size());
+  const float scale = 1 / (highest_ - lowest_);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = std::clamp((nearest_[i] - lowest_) * scale, 0.0f, 1.0f);
+  return out;
+}
+
+bool ShadowMap::covers(const Vec3f& low, const Vec3f& high) const {
   const Vec3f middle = 0.5f * (low + high), half = 0.5f * (high - low);
   for (const Eigen::Vector4f* plane : {&plane_s_, &plane_t_}) {
     // Extent of the box along a direction; the test may be true for a box near the map, but is

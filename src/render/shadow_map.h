@@ -39,7 +39,10 @@ class ShadowMap {
   std::uint64_t version() const { return version_; }
   /// Returns false if no shadow can fall on anything inside the box from `low` to `high` in W [m].
   /// May return true without need.
-  bool reaches(const Vec3f& low, const Vec3f& high) const;
+  bool reaches(const Vec3f& low, const Vec3f& high) const { return used_ && covers(low, high); }
+  /// Returns false if no ray of the sun through the box from `low` to `high` in W [m] crosses the
+  /// map. May return true without need.
+  bool covers(const Vec3f& low, const Vec3f& high) const;
   /// Returns the mask, one byte per texel: 255 is fully lit, 0 in full shadow.
   const std::vector<std::uint8_t>& mask() const { return mask_; }
   /// Returns the plane for the texture coordinate s of a point p in W: s = dot(plane.head<3>(), p)
@@ -47,6 +50,13 @@ class ShadowMap {
   const Eigen::Vector4f& plane_s() const { return plane_s_; }
   /// Returns the plane for the texture coordinate t, defined as for `plane_s`.
   const Eigen::Vector4f& plane_t() const { return plane_t_; }
+  /// Returns the plane for the depth r of a point p in W, defined as for `plane_s`: from 0 below
+  /// all casters to 1 at the one nearest to the sun.
+  Eigen::Vector4f plane_r() const;
+  /// Returns for each texel the depth of the caster nearest to the sun; 0: none.
+  std::vector<float> depths() const;
+  /// Returns the edge of a texel [m].
+  float texel() const { return 1 / (plane_s_.head<3>().norm() * kSize); }
   /// Returns the visible fraction of the sun (0 to 1) at the point `p` in W [m]; 1 outside the map.
   /// Casters that are less than `bias` [m] nearer to the sun than `p` are ignored, so that a body
   /// does not shadow itself.
@@ -63,6 +73,8 @@ class ShadowMap {
   std::uint64_t version_ = 0;
   // Unit vector towards the sun in W.
   Vec3f to_sun_ = Vec3f::UnitZ();
+  // Heights of the lowest and the highest caster in the direction of the sun [m]; with `finish`.
+  float lowest_ = 0, highest_ = 1;
   // Planes that convert a point in W to the texture coordinates s and t.
   Eigen::Vector4f plane_s_ = Eigen::Vector4f::Zero(), plane_t_ = Eigen::Vector4f::Zero();
   // For each texel, the height of the caster nearest to the sun, in the direction of the sun [m].

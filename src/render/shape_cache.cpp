@@ -265,6 +265,18 @@ std::string name_of(const scene::Visual& visual) {
 
 }  // namespace
 
+// Stretched bodies are transformed as well, so the corners follow scale and pose.
+void PlacedShape::extend(Vec3f& low, Vec3f& high) const {
+  for (int k = 0; k < 8; ++k) {
+    const Vec3f corner((k & 1) ? shape->high.x() : shape->low.x(),
+                       (k & 2) ? shape->high.y() : shape->low.y(),
+                       (k & 4) ? shape->high.z() : shape->low.z());
+    const Vec3f w = (X_WS * corner.homogeneous()).head<3>();
+    low = low.cwiseMin(w);
+    high = high.cwiseMax(w);
+  }
+}
+
 ShapeCache::~ShapeCache() {
   for (auto& [name, shape] : shapes_) shape.node->unref();
 }

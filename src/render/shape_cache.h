@@ -27,6 +27,17 @@ struct Shape {
   Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
 };
 
+/// A body at a pose that may stretch it. Two equal ones cast the same shadow.
+struct PlacedShape {
+  const Shape* shape;    ///< the body
+  Eigen::Matrix4f X_WS;  ///< affine map from the body's frame to W
+
+  bool operator==(const PlacedShape& o) const { return shape == o.shape && X_WS == o.X_WS; }
+  /// Extends the box from `low` to `high` in W [m] by the corners of the body's own box: it becomes
+  /// larger than needed if the body is turned, never smaller.
+  void extend(Vec3f& low, Vec3f& high) const;
+};
+
 /// Caches bodies, keyed by appearance (geometry, mesh file, scale and colour), so that for example
 /// equal wheels share one body. Bodies are never removed, because a scene has only some tens of
 /// them. References stay valid for the lifetime of the cache.

@@ -399,6 +399,30 @@ TEST_F(RendererTest, MachinesThrowAShadow) {
   EXPECT_LT(after.pixel(x, y)[0], 0.75 * before.pixel(x, y)[0]);
 }
 
+TEST_F(RendererTest, BodiesThrowShadowsOnBodiesBelowThem) {
+  scene::Visual plate = red_visual(scene::Geometry::Kind::kBox);
+  plate.geometry.size = Vec3(4, 4, 0.1);
+  const scene::Visual box = red_visual(scene::Geometry::Kind::kBox);
+  // The default light travels along (-0.5, 0.35, -0.8).
+  const Vec3 shaded = Vec3(0, 0, 1) + 0.75 * Vec3(-0.5, 0.35, -0.8) / 0.8;
+  const Vec2 at = project(camera_, Vec3(shaded.x(), shaded.y(), 0.25));
+  const Vec2 beside = project(camera_, Vec3(1, 0.5, 0.25));
+  const auto red = [](const Image& image, const Vec2& p) {
+    return static_cast<int>(image.pixel(static_cast<int>(p.x()), static_cast<int>(p.y()))[0]);
+  };
+  Renderer renderer;
+  frame_.shapes = {{&plate, make_pose(0, 0, 0.2)}};
+  const Image alone = renderer.render(frame_, camera_);
+  EXPECT_NEAR(red(alone, at), red(alone, beside), 3) << "the plate is lit evenly";
+  frame_.shapes.push_back({&box, make_pose(0, 0, 1.4)});
+  const Image below = renderer.render(frame_, camera_);
+  EXPECT_LT(red(below, at), 0.8 * red(alone, at));
+  EXPECT_NEAR(red(below, beside), red(alone, beside), 3) << "no shadow where nothing is above";
+  // A box throws no shadow on its own lit side.
+  const Vec2 side = project(camera_, Vec3(0.1, -0.4, 1.2));
+  EXPECT_GT(red(below, side), red(below, at));
+}
+
 TEST_F(RendererTest, TheSameFrameGivesTheSameBytes) {
   TrenchScene scene;
   make_trench_scene(scene, navvy::source_dir() + "/vehicles/ew180/meshes", 200);
