@@ -46,6 +46,22 @@ std::shared_ptr<SharedContext> SharedContext::of(cl_platform_id platform, const 
   return out;
 }
 
+namespace {
+
+/// Returns the OpenCL version of a driver as text; empty if it does not tell.
+std::string version_of(cl_device_id driver) {
+  char text[256] = "";
+  clGetDeviceInfo(driver, CL_DEVICE_VERSION, sizeof text - 1, text, nullptr);
+  return text;
+}
+
+}  // namespace
+
+SharedContext::SharedContext(cl_context context, const Drivers& drivers)
+    : drivers_(drivers),
+      context_(context),
+      guard_(LaunchGuard::needed_by(version_of(drivers.front()))) {}
+
 SharedContext::~SharedContext() {
   if (abandoned()) return;
   for (const auto& [key, program] : programs_) clReleaseProgram(program);

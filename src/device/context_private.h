@@ -17,6 +17,8 @@
 #include <string>
 #include <utility>
 
+#include "device/launch_guard_private.h"
+
 namespace navvy::device {
 
 /// Number of drivers that may run the kernels of a Device: one with worker threads (index 0), and
@@ -37,8 +39,7 @@ class SharedContext {
   static std::shared_ptr<SharedContext> of(cl_platform_id platform, const Drivers& drivers,
                                            cl_int& code);
   /// Takes ownership of `context`.
-  SharedContext(cl_context context, const Drivers& drivers)
-      : drivers_(drivers), context_(context) {}
+  SharedContext(cl_context context, const Drivers& drivers);
   ~SharedContext();
   SharedContext(const SharedContext&) = delete;
   SharedContext& operator=(const SharedContext&) = delete;
@@ -51,6 +52,8 @@ class SharedContext {
   /// completely. The first call makes it by `build`; what that throws leaves nothing behind.
   cl_program program(const std::string& key, const std::function<cl_program()>& build);
 
+  /// Returns the guard of all launches in this context.
+  LaunchGuard& guard() { return guard_; }
   /// Notes the first launch of a kernel object, at which the driver may compile machine code.
   void note_launch(cl_program program, const std::string& kernel);
   /// Returns true if programs were built, or kernels launched for the first time, since the last
@@ -67,6 +70,7 @@ class SharedContext {
  private:
   Drivers drivers_;
   cl_context context_;
+  LaunchGuard guard_;
   std::atomic<bool> lost_ = false;
   /// Guards `programs_`, and lets one thread build at a time.
   std::mutex mutex_;

@@ -273,8 +273,11 @@ Device::State::~State() {
   // waited for, since releasing a queue does not wait.
   if (queue != nullptr) clFinish(queue);
   for (auto& [name, event] : events) clReleaseEvent(event);
-  for (cl_command_queue one : queues)
-    if (one != nullptr) clReleaseCommandQueue(one);
+  for (cl_command_queue one : queues) {
+    if (one == nullptr) continue;
+    shared->guard().remove(one);
+    clReleaseCommandQueue(one);
+  }
   // Seals now, in case the process is killed later: compiled kernels are then not compiled again.
   // That reads the whole folder, so it is done only if there is something new.
   if (shared->take_news()) seal_kernel_cache();
@@ -284,7 +287,10 @@ void Device::State::open_queues() {
   // Profiling cannot be switched on an existing queue, so new ones are created. The caller has
   // waited for the old ones.
   for (std::size_t i = 0; i < kDrivers; ++i) {
-    if (queues[i] != nullptr) clReleaseCommandQueue(queues[i]);
+    if (queues[i] != nullptr) {
+      shared->guard().remove(queues[i]);
+      clReleaseCommandQueue(queues[i]);
+    }
     queues[i] = nullptr;
     const cl_device_id driver_of_queue = shared->driver(i);
     if (driver_of_queue == nullptr) continue;
@@ -292,6 +298,7 @@ void Device::State::open_queues() {
     queues[i] = clCreateCommandQueue(shared->context(), driver_of_queue,
                                      profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     check(code, "clCreateCommandQueue", *this);
+    shared->guard().add(queues[i]);
   }
   queue = queues[driver];
 }

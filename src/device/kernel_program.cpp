@@ -46,6 +46,8 @@ struct Kernel::State {
   std::vector<Argument> arguments;
   // True after the first launch on a driver.
   bool launched[kDrivers] = {};
+  // Records of the launches on each driver; null before the first one.
+  LaunchGuard::Widest* widest[kDrivers] = {};
 
   State() = default;
   State(const State&) = delete;
@@ -301,12 +303,17 @@ void Kernel::launch(const WorkSize& global, const std::size_t* local) {
     if (!device.compiling) device.compiling = log_if_slow(device, "kernel " + state_->name);
   }
   launched = true;
+  LaunchGuard& guard = device.shared->guard();
+  LaunchGuard::Widest*& widest = state_->widest[device.driver];
+  if (widest == nullptr) widest = &guard.record(state_->program->built(), state_->name);
   const LongWork work("the OpenCL driver was busy compiling or starting a kernel");
   // With fewer axes a driver may choose better work-groups.
   const cl_uint axes = global.n[2] > 1 ? 3 : global.n[1] > 1 ? 2 : 1;
-  check(clEnqueueNDRangeKernel(device.queue, kernel, axes, nullptr, global.n, local, 0, nullptr,
-                               device.profiling ? &event : nullptr),
-        "clEnqueueNDRangeKernel", device, state_->name);
+  const cl_int code = guard.launch(device.queue, *widest, local, global.n, [&] {
+    return clEnqueueNDRangeKernel(device.queue, kernel, axes, nullptr, global.n, local, 0, nullptr,
+                                  device.profiling ? &event : nullptr);
+  });
+  check(code, "clEnqueueNDRangeKernel", device, state_->name);
   if (event == nullptr) return;
   device.events.emplace_back(state_->name, event);
   // Bounds the number of live events in a long profiled run.

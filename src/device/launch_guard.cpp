@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <charconv>
+
+#include "device/launch_guard_private.h"
+
+namespace navvy::device {
+
+bool LaunchGuard::needed_by(const std::string& version) {
+  const std::size_t at = version.find("PoCL ");
+  if (at == std::string::npos) return false;
+  int major = 0;
+  std::from_chars(version.data() + at + 5, version.data() + version.size(), major);
+  return major < 6;
+}
+
+void LaunchGuard::add(cl_command_queue queue) {
+  const std::unique_lock<std::shared_mutex> alone(mutex_);
+  finish_others(queue);
+  queues_.insert(queue);
+}
+
+void LaunchGuard::remove(cl_command_queue queue) {
+  const std::unique_lock<std::shared_mutex> alone(mutex_);
+  queues_.erase(queue);
+}
+
+LaunchGuard::Widest& LaunchGuard::record(cl_program program, const std::string& kernel) {
+  const std::unique_lock<std::shared_mutex> alone(mutex_);
+  return widest_[{program, kernel}];
+}
+
+std::array<std::size_t, 3> LaunchGuard::key_of(const std::size_t* local) {
+  if (local == nullptr) return {0, 0, 0};
+  return {local[0], local[1], local[2]};
+}
+
+std::size_t LaunchGuard::width_of(const std::size_t* global) {
+  return std::max({global[0], global[1], global[2]});
+}
+
+void LaunchGuard::finish_others(cl_command_queue queue) const {
+  if (!needed_) return;
+  for (cl_command_queue one : queues_)
+    if (one != queue) clFinish(one);
+}
+
+}  // namespace navvy::device

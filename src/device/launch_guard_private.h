@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps launches of several queues apart where the driver cannot; included by src/device/*.cpp
+// only.
+#pragma once
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <set>
+#include <shared_mutex>
+#include <string>
+#include <utility>
+
+namespace navvy::device {
+
+/// Lets the queues of a process launch kernels at the same time, except where PoCL before version 6
+/// would abort.
+///
+/// PoCL loads a kernel again when it is launched over more work-items than ever before, and on
+/// return takes the newest copy for the one that was running. When two queues run two copies of one
+/// kernel, the count of users of one of them falls below zero: "pocl_release_dlhandle_cache:
+/// Assertion `found->ref_count > 0' failed". A launch over more work-items than all before it
+/// therefore waits until the other queues are empty, and they wait for it. Thread-safe.
+class LaunchGuard {
+ public:
+  /// Largest number of work-items along one axis over which a kernel was launched, by the size of
+  /// its work-groups.
+  using Widest = std::map<std::array<std::size_t, 3>, std::size_t>;
+
+  /// Guards launches if `needed` is true. Otherwise does nothing.
+  explicit LaunchGuard(bool needed) : needed_(needed) {}
+
+  /// Returns true for an OpenCL version text of a driver that needs the guard.
+  static bool needed_by(const std::string& version);
+
+  /// Adds a queue; waits until the others are empty.
+  void add(cl_command_queue queue);
+  /// Removes a queue, which must be empty.
+  void remove(cl_command_queue queue);
+  /// Returns the record of a kernel of a program; valid as long as the guard.
+  Widest& record(cl_program program, const std::string& kernel);
+
+  /// Calls `enqueue`, which launches a kernel into `queue` and returns an OpenCL code, and returns
+  /// that code. `local` is the size of a work-group, null if the driver chooses it; `global` is the
+  /// number of work-items along each axis.
+  template <class Enqueue>
+  cl_int launch(cl_command_queue queue, Widest& widest, const std::size_t* local,
+                const std::size_t* global, const Enqueue& enqueue) {
+    if (!needed_) return enqueue();
+    const std::array<std::size_t, 3> key = key_of(local);
+    const std::size_t width = width_of(global);
+    {
+      const std::shared_lock<std::shared_mutex> together(mutex_);
+      const auto known = widest.find(key);
+      // The groups that a driver chooses are unknown.
+      if (local != nullptr && known != widest.end() && width <= known->second) return enqueue();
+    }
+    const std::unique_lock<std::shared_mutex> alone(mutex_);
+    finish_others(queue);
+    const cl_int code = enqueue();
+    if (code != CL_SUCCESS) return code;
+    if (queues_.size() > 1) clFinish(queue);
+    std::size_t& most = widest[key];
+    if (width > most) most = width;
+    return code;
+  }
+
+ private:
+  static std::array<std::size_t, 3> key_of(const std::size_t* local);
+  static std::size_t width_of(const std::size_t* global);
+  // Waits until all queues but one are empty. Their owners report what fails.
+  void finish_others(cl_command_queue queue) const;
+
+  const bool needed_;
+  // Held together while a kernel is put into a queue, alone while a wider launch runs.
+  std::shared_mutex mutex_;
+  std::set<cl_command_queue> queues_;
+  std::map<std::pair<cl_program, std::string>, Widest> widest_;
+};
+
+}  // namespace navvy::device
