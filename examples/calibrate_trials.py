@@ -4,7 +4,9 @@
     python3 examples/calibrate_trials.py --trials 20
 
 The series are forces on the bucket of the scene bucket_path with cells of 0.2 m, with white noise.
-All trials repeat one motion, so each uses the scenes that were simulated for those before it.
+The bucket cuts 0.13 m deep, then 0.35 m deep: cohesion resists in proportion to the depth, friction
+to its square, so that two depths tell one from the other. All trials repeat this motion, and each
+uses the scenes that were simulated for those before it.
 """
 import argparse
 import time
@@ -14,8 +16,15 @@ import numpy as np
 import navvy
 
 OUTPUTS = ["bucket/bucket/force_x", "bucket/bucket/force_z"]
-TIMES = np.arange(0.5, 4.0, 0.05)
+TIMES = np.arange(0.4, 4.0, 0.01)
 WINDOWS = 8
+# At -70 deg the cutting edge is 0.367 m below the hinge.
+MOTION = {
+    "times_s": (0, 0.4, 1.0, 2.0, 2.5, 4.0),
+    "joint[slide_x].positions_m": (-1.6, -1.6, -1.4, -0.8, -0.6, 0.3),
+    "joint[slide_z].positions_m": (0.6, 0.4, 0.24, 0.24, 0.02, 0.02),
+    "joint[curl].positions_deg": (-70,) * 6,
+}
 
 
 def soil_of(scene, friction, cohesion):
@@ -50,6 +59,7 @@ def main():
     parser.add_argument("--html", help="page of the last trial")
     options = parser.parse_args()
     scene = navvy.Scene("bucket_path")
+    scene.update({"machine.program.trajectory." + name: row for name, row in MOTION.items()})
     scene.update({"solver.cell_m": 0.2})
     random, errors, inside = np.random.default_rng(options.seed), [], []
     share = options.noise / np.sqrt(len(TIMES) / WINDOWS)
