@@ -55,6 +55,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--trials", type=int, default=20)
     parser.add_argument("--noise", type=float, default=0.05, help="of a sample, of the largest one")
+    parser.add_argument("--samples", type=int, default=32, help="scenes in the box of a round")
+    parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seed", type=int, default=3)
     parser.add_argument("--html", help="page of the last trial")
     options = parser.parse_args()
@@ -76,6 +78,8 @@ def main():
             dict(zip(OUTPUTS, rows.T)),
             windows=WINDOWS,
             noise=share,
+            samples=options.samples,
+            rounds=options.rounds,
             earlier=known,
             html=options.html if trial + 1 == options.trials else None,
         )
@@ -94,6 +98,8 @@ def main():
         one = scale * np.array(errors)[:, column]
         held = np.array(inside)[:, column].sum()
         print(text % (name, np.median(one), one.max(), unit, held, options.trials))
+    good = (np.array(errors) <= (2, 0.15)).sum(axis=0)
+    print("phi within 2 deg in %d trials, c within 15 %% in %d" % tuple(good))
 
 
 if __name__ == "__main__":
