@@ -32,12 +32,13 @@ const char* const kFragment = R"(#version 120
 uniform sampler2DShadow shadows;
 uniform mat4 to_map;    // from the camera's frame to the map
 uniform float offset;   // distance from the surface at which the map is read [m]
+uniform float bias;     // depth that a caster may be above a point without a shadow on it
 uniform float texel;    // edge of a texel, the edge of the map being 1
 varying vec3 place;
 varying vec3 normal;
 
 float sun_at(vec3 p) {
-  vec3 at = vec3(to_map * vec4(p, 1.0));
+  vec3 at = vec3(to_map * vec4(p, 1.0)) + vec3(0.0, 0.0, bias);
   float lit = 0.0;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x)
@@ -100,6 +101,7 @@ void BodyShader::compile() {
   to_map_ = glGetUniformLocation(program_, "to_map");
   shadows_ = glGetUniformLocation(program_, "shadows");
   offset_ = glGetUniformLocation(program_, "offset");
+  bias_ = glGetUniformLocation(program_, "bias");
   texel_ = glGetUniformLocation(program_, "texel");
 }
 
@@ -131,8 +133,10 @@ void BodyShader::use(const ShadowMap& map, const Eigen::Matrix4f& X_CW) {
   glUseProgram(program_);
   glUniformMatrix4fv(to_map_, 1, GL_FALSE, to_map.data());
   glUniform1i(shadows_, kUnit);
-  // Farther than a texel that is seen at a slant, so that a face does not shadow itself.
-  glUniform1f(offset_, 2.5f * map.texel());
+  // Farther than a texel that is seen at a slant, so that a face shadows neither itself nor the
+  // next one around its edge.
+  glUniform1f(offset_, 2.0f * map.texel());
+  glUniform1f(bias_, 3.0f * map.texel() * map.plane_r().head<3>().norm());
   glUniform1f(texel_, 1.0f / ShadowMap::kSize);
 }
 

@@ -37,7 +37,7 @@ class BodyShader {
   unsigned program_ = 0;
   bool compiled_ = false;
   // Places of its inputs.
-  int to_map_ = -1, shadows_ = -1, offset_ = -1, texel_ = -1;
+  int to_map_ = -1, shadows_ = -1, offset_ = -1, bias_ = -1, texel_ = -1;
   // One entry per map that was used.
   std::map<const ShadowMap*, Texture> textures_;
 };
