@@ -15,54 +15,54 @@ namespace {
 /// Texture unit of the shadow map; unit 0 belongs to Coin.
 constexpr int kUnit = 3;
 
+// Light is computed at corners, as OpenGL does by itself: for each of 10^5 pixels it would cost
+// more than all else in a picture. Coin sends the diffuse colour as the colour of a corner, the
+// rest as a material.
 const char* const kVertex = R"(#version 120
-varying vec3 place;   // in the camera's frame
-varying vec3 normal;
+uniform mat4 to_map;    // from the camera's frame to the map
+uniform float texel;    // edge of a texel, in units of the map's depth
+varying vec3 at;        // place in the map
+varying float clear;    // share that haze leaves
+// Light of a directional source on a side with normal n.
+vec3 light(int i, vec3 n) {
+  vec3 to_light = normalize(gl_LightSource[i].position.xyz);
+  float facing = dot(n, to_light);
+  if (facing <= 0.0) return vec3(0.0);
+  float shine = pow(max(dot(n, normalize(to_light + vec3(0.0, 0.0, 1.0))), 0.0),
+                    max(gl_FrontMaterial.shininess, 1e-3));
+  return gl_Color.rgb * gl_LightSource[i].diffuse.rgb * facing +
+         gl_FrontMaterial.specular.rgb * gl_LightSource[i].specular.rgb * shine;
+}
+vec4 without_sun(vec3 n) {
+  vec3 ambient = gl_LightModel.ambient.rgb;
+  for (int i = 0; i < 3; ++i) ambient += gl_LightSource[i].ambient.rgb;
+  return vec4(gl_FrontMaterial.emission.rgb + gl_FrontMaterial.ambient.rgb * ambient + light(1, n) +
+                  light(2, n),
+              gl_Color.a);
+}
 void main() {
-  place = vec3(gl_ModelViewMatrix * gl_Vertex);
-  normal = gl_NormalMatrix * gl_Normal;
-  gl_FrontColor = gl_Color;
-  gl_BackColor = gl_Color;
+  vec4 place = gl_ModelViewMatrix * gl_Vertex;
+  vec3 n = normalize(gl_NormalMatrix * gl_Normal);
+  gl_FrontColor = without_sun(n);
+  gl_BackColor = without_sun(-n);
+  gl_FrontSecondaryColor = vec4(light(0, n), 1.0);
+  gl_BackSecondaryColor = vec4(light(0, -n), 1.0);
+  // A face shadows neither itself, the less the more it faces the sun, nor the next one around its
+  // edge.
+  float facing = abs(dot(n, normalize(gl_LightSource[0].position.xyz)));
+  float slope = sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.2);
+  at = vec3(to_map * place) + vec3(0.0, 0.0, texel * (3.0 + 1.5 * slope));
+  clear = clamp((gl_Fog.end + place.z) * gl_Fog.scale, 0.0, 1.0);
   gl_Position = ftransform();
 }
 )";
 
-// Coin sends the diffuse colour as the colour of a corner, the rest as a material.
 const char* const kFragment = R"(#version 120
 uniform sampler2DShadow shadows;
-uniform mat4 to_map;    // from the camera's frame to the map
-uniform float offset;   // distance from the surface at which the map is read [m]
-uniform float bias;     // depth that a caster may be above a point without a shadow on it
-uniform float texel;    // edge of a texel, the edge of the map being 1
-varying vec3 place;
-varying vec3 normal;
-
-float sun_at(vec3 p) {
-  vec3 at = vec3(to_map * vec4(p, 1.0)) + vec3(0.0, 0.0, bias);
-  float lit = 0.0;
-  for (int y = -1; y <= 1; ++y)
-    for (int x = -1; x <= 1; ++x)
-      lit += shadow2D(shadows, at + vec3(float(x) * texel, float(y) * texel, 0.0)).r;
-  return lit / 9.0;
-}
-
+varying vec3 at;
+varying float clear;
 void main() {
-  // Plates are lit from both sides.
-  vec3 n = normalize(gl_FrontFacing ? normal : -normal);
-  vec3 color = gl_FrontMaterial.emission.rgb +
-               gl_FrontMaterial.ambient.rgb * gl_LightModel.ambient.rgb;
-  for (int i = 0; i < 3; ++i) {
-    vec3 to_light = normalize(gl_LightSource[i].position.xyz);
-    float facing = dot(n, to_light);
-    color += gl_FrontMaterial.ambient.rgb * gl_LightSource[i].ambient.rgb;
-    if (facing <= 0.0) continue;
-    float shine = pow(max(dot(n, normalize(to_light + vec3(0.0, 0.0, 1.0))), 0.0),
-                      max(gl_FrontMaterial.shininess, 1e-3));
-    vec3 light = gl_Color.rgb * gl_LightSource[i].diffuse.rgb * facing +
-                 gl_FrontMaterial.specular.rgb * gl_LightSource[i].specular.rgb * shine;
-    color += i == 0 ? light * sun_at(place + offset * n) : light;
-  }
-  float clear = clamp((gl_Fog.end + place.z) * gl_Fog.scale, 0.0, 1.0);
+  vec3 color = gl_Color.rgb + gl_SecondaryColor.rgb * shadow2D(shadows, at).r;
   gl_FragColor = vec4(mix(gl_Fog.color.rgb, min(color, vec3(1.0)), clear), gl_Color.a);
 }
 )";
@@ -100,8 +100,6 @@ void BodyShader::compile() {
   glDeleteShader(fragment);
   to_map_ = glGetUniformLocation(program_, "to_map");
   shadows_ = glGetUniformLocation(program_, "shadows");
-  offset_ = glGetUniformLocation(program_, "offset");
-  bias_ = glGetUniformLocation(program_, "bias");
   texel_ = glGetUniformLocation(program_, "texel");
 }
 
@@ -133,13 +131,14 @@ void BodyShader::use(const ShadowMap& map, const Eigen::Matrix4f& X_CW) {
   glUseProgram(program_);
   glUniformMatrix4fv(to_map_, 1, GL_FALSE, to_map.data());
   glUniform1i(shadows_, kUnit);
-  // Farther than a texel that is seen at a slant, so that a face shadows neither itself nor the
-  // next one around its edge.
-  glUniform1f(offset_, 2.0f * map.texel());
-  glUniform1f(bias_, 3.0f * map.texel() * map.plane_r().head<3>().norm());
-  glUniform1f(texel_, 1.0f / ShadowMap::kSize);
+  glUniform1f(texel_, map.texel() * map.plane_r().head<3>().norm());
+  // Plates are lit from both sides.
+  glEnable(GL_VERTEX_PROGRAM_TWO_SIDE);
 }
 
-void BodyShader::stop() const { glUseProgram(0); }
+void BodyShader::stop() const {
+  glUseProgram(0);
+  glDisable(GL_VERTEX_PROGRAM_TWO_SIDE);
+}
 
 }  // namespace navvy::render

@@ -10,10 +10,10 @@
 
 namespace navvy::render {
 
-/// A program that OpenGL runs for each pixel of a body. It computes the light of Coin's materials
-/// and of three directional lights as OpenGL does by itself, per pixel instead of per corner, and
-/// takes away the light of the first one, the sun, where a shadow map says so. Its OpenGL context
-/// must be current in every call.
+/// A program that OpenGL runs for each corner and each pixel of a body. It computes the light of
+/// Coin's materials and of three directional lights as OpenGL does by itself, and takes away that
+/// of the first one, the sun, where a shadow map says so. Its OpenGL context must be current in
+/// every call.
 class BodyShader {
  public:
   /// Uses the program for what is drawn next, with the shadows of `map`. `X_CW` is the affine map
@@ -37,7 +37,7 @@ class BodyShader {
   unsigned program_ = 0;
   bool compiled_ = false;
   // Places of its inputs.
-  int to_map_ = -1, shadows_ = -1, offset_ = -1, bias_ = -1, texel_ = -1;
+  int to_map_ = -1, shadows_ = -1, texel_ = -1;
   // One entry per map that was used.
   std::map<const ShadowMap*, Texture> textures_;
 };

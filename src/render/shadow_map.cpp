@@ -62,9 +62,12 @@ void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, 
                                       (b.y() - c.y()) * inverse};
   const std::array<float, 3> per_y = {(a.x() - c.x()) * inverse, (b.x() - a.x()) * inverse,
                                       (c.x() - b.x()) * inverse};
+  const float highest = std::max({a.z(), b.z(), c.z()});
   const float slope = per_x[0] * (b.z() - a.z()) + per_x[1] * (c.z() - a.z());
-  // Closes gaps between neighbours.
-  constexpr float kSlack = -0.02f;
+  // Half a texel beyond each edge closes gaps between neighbours. More would be a rim that throws
+  // its shadow on the faces around the edge.
+  std::array<float, 3> slack;
+  for (std::size_t k = 0; k < 3; ++k) slack[k] = -0.5f * std::hypot(per_x[k], per_y[k]);
   for (int y = low_y; y <= high_y; ++y) {
     const float px = static_cast<float>(low_x) + 0.5f - a.x(),
                 py = static_cast<float>(y) + 0.5f - a.y();
@@ -74,21 +77,22 @@ void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, 
     // of it.
     float first = 0, last = static_cast<float>(high_x - low_x);
     for (std::size_t k = 0; k < 3; ++k) {
-      const float slack = kSlack - share[k];
+      const float missing = slack[k] - share[k];
       if (per_x[k] > 0)
-        first = std::max(first, slack / per_x[k]);
+        first = std::max(first, missing / per_x[k]);
       else if (per_x[k] < 0)
-        last = std::min(last, slack / per_x[k]);
-      else if (slack > 0)
+        last = std::min(last, missing / per_x[k]);
+      else if (missing > 0)
         last = -1;
     }
     if (!(first <= last)) continue;
-    // The height along the sun's direction is linear over a triangle, so the inner loop only adds.
+    // The height along the sun's direction is linear over a triangle. Beyond its edges it may not
+    // rise above the highest corner: a triangle seen edge-on is steep.
     float* row = &nearest_[static_cast<std::size_t>(y * kSize + low_x)];
     const float start = a.z() + share[0] * (b.z() - a.z()) + share[1] * (c.z() - a.z());
     const int end = static_cast<int>(last);
     for (int x = static_cast<int>(std::ceil(first)); x <= end; ++x)
-      row[x] = std::max(row[x], start + slope * static_cast<float>(x));
+      row[x] = std::max(row[x], std::min(start + slope * static_cast<float>(x), highest));
   }
 }
 
