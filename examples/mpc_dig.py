@@ -61,8 +61,8 @@ def scene_of(seed: int, cell: float, known_soil: bool) -> navvy.Scene:
     scene.update(
         {
             "solver.cell_m": cell,
-            "machine.pose": (-4, 0, 0, 0, 0, 0),
-            "machine.program.dig.max_cycles": 1,
+            "machine[%s].pose" % MACHINE: (-4, 0, 0, 0, 0, 0),
+            "machine[%s].program.dig.max_cycles" % MACHINE: 1,
         }
     )
     share = 0.0 if known_soil else 0.3
