@@ -5,7 +5,7 @@
 
 The series are forces on the bucket of the scene bucket_path with cells of 0.2 m, with white noise.
 The bucket cuts 0.13 m deep, then 0.35 m deep: cohesion resists in proportion to the depth, friction
-to its square, so that two depths tell one from the other. All trials repeat this motion, and each
+to its square, so that two depths separate them. All trials repeat this motion, and each
 uses the scenes that were simulated for those before it.
 """
 import argparse

@@ -48,7 +48,7 @@ std::shared_ptr<SharedContext> SharedContext::of(cl_platform_id platform, const 
 
 namespace {
 
-/// Returns the OpenCL version of a driver as text; empty if it does not tell.
+/// Returns the OpenCL version of a driver as text; empty if that fails.
 std::string version_of(cl_device_id driver) {
   char text[256] = "";
   clGetDeviceInfo(driver, CL_DEVICE_VERSION, sizeof text - 1, text, nullptr);

@@ -31,6 +31,19 @@ float periodic_noise(float x, float y, int period, std::uint32_t seed) {
   return 2 * (low + (high - low) * ty) - 1;
 }
 
+/// Returns a square picture of `size` x `size` texels at half its size: means of four texels each.
+std::vector<std::uint8_t> half_size(const std::vector<std::uint8_t>& texels, std::size_t size) {
+  const std::size_t half = size / 2;
+  std::vector<std::uint8_t> out(half * half);
+  for (std::size_t y = 0; y < half; ++y)
+    for (std::size_t x = 0; x < half; ++x) {
+      const std::size_t i = 2 * y * size + 2 * x;
+      const int sum = texels[i] + texels[i + 1] + texels[i + size] + texels[i + size + 1];
+      out[y * half + x] = static_cast<std::uint8_t>((sum + 2) / 4);
+    }
+  return out;
+}
+
 void set_plane(GLenum coordinate, const Eigen::Vector4f& plane) {
   glTexGeni(coordinate, GL_TEXTURE_GEN_MODE, GL_OBJECT_LINEAR);
   glTexGenfv(coordinate, GL_OBJECT_PLANE, plane.data());
@@ -162,11 +175,22 @@ void GlDraw::make_grain() {
   glGenTextures(1, &grain_);
   glBindTexture(GL_TEXTURE_2D, grain_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE8, kGrainSize, kGrainSize, 0, GL_LUMINANCE,
-               GL_UNSIGNED_BYTE, texels.data());
-  // At a distance the texture must blend into its mean, or it would flicker.
-  glGenerateMipmap(GL_TEXTURE_2D);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  // At a distance the texture fades into its mean: it would flicker, and where a repetition is some
+  // pixels long it would draw a lattice on the ground.
+  constexpr std::array<float, 4> kContrast = {1, 0.8f, 0.5f, 0.2f};
+  std::size_t size = kGrainSize;
+  for (int level = 0; size > 0; ++level, size /= 2) {
+    const float contrast = static_cast<std::size_t>(level) < kContrast.size()
+                               ? kContrast[static_cast<std::size_t>(level)]
+                               : 0;
+    std::vector<std::uint8_t> shown(texels.size());
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      shown[i] = to_byte(0.5f + contrast * (static_cast<float>(texels[i]) / 255.0f - 0.5f));
+    glTexImage2D(GL_TEXTURE_2D, level, GL_LUMINANCE8, static_cast<GLsizei>(size),
+                 static_cast<GLsizei>(size), 0, GL_LUMINANCE, GL_UNSIGNED_BYTE, shown.data());
+    texels = half_size(texels, size);
+  }
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
