@@ -90,7 +90,9 @@ Solver::~Solver() = default;
 
 int Solver::add_tool(const scene::Shell& shell) {
   state_->standing.add_tool();
-  return state_->contact.add_tool(shell);
+  const int tool = state_->contact.add_tool(shell);
+  state_->held_spaces.emplace_back(state_->contact.geometry(tool));
+  return tool;
 }
 
 // The lab and tests switch the separation of crowded particles off to show its effect.

@@ -40,27 +40,27 @@ std::vector<Particle> Solver::particles() const {
 }
 
 double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> except) const {
-  const ShellGeometry& geometry = state_->contact.geometry(tool);
+  HeldSpace& space = state_->held_space(tool);
   const Pose X_TW = X_WT.inverse();
-  // Bounding box of what it can hold, in the grid [cells].
+  // Bounding box of what it can hold, in the grid [cells]. Wider than rounding.
   Vec3 low = Vec3::Constant(1e300), high = -low;
-  for (const Vec3& corner : geometry.hull_points()) {
+  for (const Vec3& corner : state_->contact.geometry(tool).hull_points()) {
     const Vec3 grid = (X_WT * corner - state_->frame.origin) / state_->frame.cell;
     low = low.cwiseMin(grid);
     high = high.cwiseMax(grid);
   }
-  std::vector<std::pair<const ShellGeometry*, Pose>> others;
+  constexpr double kWider = 1e-3;
+  low.array() -= kWider;
+  high.array() += kWider;
+  std::vector<std::pair<HeldSpace*, Pose>> others;
   for (const PlacedTool& other : except)
-    others.emplace_back(&state_->contact.geometry(other.tool), other.X_WT.inverse());
+    others.emplace_back(&state_->held_space(other.tool), other.X_WT.inverse());
   std::int64_t sum = 0;
-  // Triangle of the previous particle: neighbours in memory are neighbours in space.
-  int closest = 0;
   for (const PointMass& p : state_->particles.masses_near(low, high)) {
     const Vec3 p_W = state_->frame.origin + p.grid * state_->frame.cell;
     // Soil in the `except` tools is theirs.
     const auto holds = [&](const auto& other) { return other.first->holds(other.second * p_W); };
-    if (geometry.holds(X_TW * p_W, closest) && std::none_of(others.begin(), others.end(), holds))
-      sum += p.mass;
+    if (space.holds(X_TW * p_W) && std::none_of(others.begin(), others.end(), holds)) sum += p.mass;
   }
   return kilograms(sum);
 }
@@ -69,27 +69,26 @@ void Solver::places(std::vector<ParticlePlace>& out) const { state_->particles.p
 
 std::function<bool(const Vec3&)> Solver::holding(std::span<const PlacedTool> tools) const {
   struct Space {
-    const ShellGeometry* geometry;
+    HeldSpace* held;
     Pose X_TW;
-    Vec3 low, high;   // box in W
-    int closest = 0;  // triangle of the previous point: neighbours often follow each other
+    Vec3 low, high;  // box in W
   };
   std::vector<Space> spaces;
   for (const PlacedTool& tool : tools) {
-    Space space{&state_->contact.geometry(tool.tool), tool.X_WT.inverse(), Vec3::Constant(1e300),
+    Space space{&state_->held_space(tool.tool), tool.X_WT.inverse(), Vec3::Constant(1e300),
                 Vec3::Constant(-1e300)};
-    for (const Vec3& corner : space.geometry->hull_points()) {
+    for (const Vec3& corner : state_->contact.geometry(tool.tool).hull_points()) {
       space.low = space.low.cwiseMin(tool.X_WT * corner);
       space.high = space.high.cwiseMax(tool.X_WT * corner);
     }
     spaces.push_back(space);
   }
-  return [spaces = std::move(spaces)](const Vec3& p_W) mutable {
-    for (Space& space : spaces) {
+  return [spaces = std::move(spaces)](const Vec3& p_W) {
+    for (const Space& space : spaces) {
       // Most points are far from any tool.
       if ((p_W.array() < space.low.array()).any() || (p_W.array() > space.high.array()).any())
         continue;
-      if (space.geometry->holds(space.X_TW * p_W, space.closest)) return true;
+      if (space.held->holds(space.X_TW * p_W)) return true;
     }
     return false;
   };

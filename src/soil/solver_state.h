@@ -5,6 +5,7 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "soil/current_transfer.h"
 #include "soil/energy_ledger.h"
@@ -20,6 +21,7 @@
 #include "soil/solver.h"
 #include "soil/standing_tools.h"
 #include "soil/tools/contact.h"
+#include "soil/tools/held_space.h"
 
 namespace navvy::soil {
 
@@ -88,6 +90,8 @@ struct Solver::State {
   /// Starts a new energy account.
   void open_energy();
 
+  /// Returns the space in which tool `tool` holds soil.
+  HeldSpace& held_space(int tool) { return held_spaces[static_cast<std::size_t>(tool)]; }
   /// Returns the speed of the fastest vertex of a tool [m/s].
   double tool_speed(const ToolMotion& motion) const;
   /// Returns the bounding box of a tool in W and the velocity of the box centre.
@@ -130,6 +134,8 @@ struct Solver::State {
   Transfer transfer;
   /// Contact of tools with nodes and particles.
   Contact contact;
+  /// Space in which each tool holds soil, by tool index.
+  std::vector<HeldSpace> held_spaces;
   /// Progress of the current transfer.
   CurrentTransfer current;
   /// Count of the particle masses on the device.

@@ -323,6 +323,8 @@ std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& h
                                           static_cast<double>(words[(FIELD_X + a) * capacity]) +
                                           static_cast<double>(words[(FIELD_MOVED + a) * capacity]);
       // Positions include the displacement of the current transfer.
+      if ((point.grid.array() < low.array()).any() || (point.grid.array() > high.array()).any())
+        continue;
       point.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
       out.push_back(point);
     }
@@ -346,7 +348,9 @@ void ParticleStore::places(std::vector<ParticlePlace>& out) const {
       for (std::size_t a = 0; a < 3; ++a) {
         // Rounded as in Solver::particles: to floats in the block that contains the place.
         float x = words[(FIELD_X + a) * capacity] + words[(FIELD_MOVED + a) * capacity];
-        const float block = kBlockCells * std::floor(x / kBlockCells);
+        // Most places are in the block itself, and a call of floor takes as long as all else here.
+        const float block =
+            x >= 0 && x < kBlockCells ? 0.0f : kBlockCells * std::floor(x / kBlockCells);
         x -= block;
         place.grid[static_cast<int>(a)] =
             corner[a] + static_cast<double>(block) + static_cast<double>(x);

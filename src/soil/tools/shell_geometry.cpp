@@ -134,48 +134,85 @@ double ShellGeometry::distance(const Vec3& p) const {
   return distance(p, closest);
 }
 
-ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const {
-  double best = 1e300;
-  Nearest out;
-  // The sign of the distance comes from the pseudo-normal of the closest feature, which is right at
-  // edges and corners, where a face normal is not.
-  const auto offer = [&](const Vec3& c, const Vec3& normal, int triangle) {
-    const double d2 = (p - c).squaredNorm();
-    if (d2 >= best) return;
-    best = d2;
-    out.place = c;
-    out.normal = normal;
-    closest = triangle;
-  };
-  const auto look = [&](int n) {
-    const Triangle& t = triangles_[static_cast<std::size_t>(n)];
+namespace {
+
+/// Search for the point of a shell closest to a given point.
+class NearestSearch {
+ public:
+  NearestSearch(const std::vector<ShellGeometry::Triangle>& triangles, const Vec3& p)
+      : triangles_(triangles), p_(p) {}
+
+  /// Takes triangle `n` into account.
+  void look(int n) {
+    const ShellGeometry::Triangle& t = triangles_[static_cast<std::size_t>(n)];
     // A triangle whose plane or bounding sphere is farther than the best distance cannot be closer;
     // the margin covers rounding.
-    const double height = t.normal.dot(p - t.corner[0]);
-    if (height * height > best * (1 + 1e-9)) return;
-    const double reach = (std::sqrt(best) + t.radius) * (1 + 1e-9);
-    if ((p - t.centre).squaredNorm() > reach * reach) return;
+    const double height = t.normal.dot(p_ - t.corner[0]);
+    if (height * height > best_ * (1 + 1e-9)) return;
+    const double reach = (std::sqrt(best_) + t.radius) * (1 + 1e-9);
+    if ((p_ - t.centre).squaredNorm() > reach * reach) return;
     bool inside = true;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 along = t.corner[(i + 1) % 3] - t.corner[i];
-      inside = inside && t.normal.cross(along).dot(p - t.corner[i]) >= 0;
+      inside = inside && t.normal.cross(along).dot(p_ - t.corner[i]) >= 0;
       double share = 0;
-      const Vec3 c = closest_on_segment(p, t.corner[i], t.corner[(i + 1) % 3], share);
+      const Vec3 c = closest_on_segment(p_, t.corner[i], t.corner[(i + 1) % 3], share);
       offer(c,
             share <= 0   ? t.corner_normal[i]
             : share >= 1 ? t.corner_normal[(i + 1) % 3]
                          : t.edge_normal[i],
             n);
     }
-    if (inside) offer(p - height * t.normal, t.normal, n);
-  };
+    if (inside) offer(p_ - height * t.normal, t.normal, n);
+  }
+  /// Returns the closest point found, and its triangle in `closest`.
+  ShellGeometry::Nearest result(int& closest) {
+    closest = triangle_;
+    out_.distance = ((p_ - out_.place).dot(out_.normal) >= 0 ? 1 : -1) * std::sqrt(best_);
+    return out_;
+  }
+
+ private:
+  // The sign of the distance comes from the pseudo-normal of the closest feature, which is right at
+  // edges and corners, where a face normal is not.
+  void offer(const Vec3& c, const Vec3& normal, int triangle) {
+    const double d2 = (p_ - c).squaredNorm();
+    if (d2 >= best_) return;
+    best_ = d2;
+    out_.place = c;
+    out_.normal = normal;
+    triangle_ = triangle;
+  }
+
+  const std::vector<ShellGeometry::Triangle>& triangles_;
+  const Vec3& p_;
+  double best_ = 1e300;
+  int triangle_ = 0;
+  ShellGeometry::Nearest out_;
+};
+
+}  // namespace
+
+ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const {
+  NearestSearch search(triangles_, p);
   // A good guess first makes the rejection tests of the other triangles effective.
-  const int guess = closest;
-  look(guess);
+  search.look(closest);
   for (int n = 0; n < static_cast<int>(triangles_.size()); ++n)
-    if (n != guess) look(n);
-  out.distance = ((p - out.place).dot(out.normal) >= 0 ? 1 : -1) * std::sqrt(best);
-  return out;
+    if (n != closest) search.look(n);
+  return search.result(closest);
+}
+
+ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, std::span<const int> among) const {
+  NearestSearch search(triangles_, p);
+  for (const int n : among) search.look(n);
+  int closest = 0;
+  return search.result(closest);
+}
+
+double ShellGeometry::distance_to(int triangle, const Vec3& p) const {
+  NearestSearch search(triangles_, p);
+  search.look(triangle);
+  return std::abs(search.result(triangle).distance);
 }
 
 bool ShellGeometry::holds(const Vec3& p) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/math.h"
@@ -76,6 +77,10 @@ class ShellGeometry {
   };
   /// Returns the point of the shell closest to `p` in T. `closest` as in `distance`.
   Nearest nearest(const Vec3& p, int& closest) const;
+  /// Returns the same for a point whose closest triangles are all in `among`, in ascending order.
+  Nearest nearest(const Vec3& p, std::span<const int> among) const;
+  /// Returns the distance of triangle `triangle` from `p` in T [m].
+  double distance_to(int triangle, const Vec3& p) const;
   /// Returns true if the shell holds soil at `p` in T: if the point is in front of the closest
   /// plate and inside the convex hull, which is raised over the mouth by the height of a heap.
   bool holds(const Vec3& p) const;
@@ -84,6 +89,8 @@ class ShellGeometry {
   /// Returns the points in T [m] whose convex hull is the hull of `holds`: all corners, and the
   /// rims raised by the height of a heap.
   const std::vector<Vec3>& hull_points() const { return hull_points_; }
+  /// Returns the planes of that hull; normals point outwards.
+  const std::vector<geometry::Plane>& hull() const { return hull_; }
 
  private:
   /// Computes triangles, pseudo-normals and free edges.
