@@ -22,13 +22,14 @@ class TileFace {
   /// Returns true when a whole row of the tile is bit-identical, which holds for most rows.
   bool same_row(const TileFace& other, int y) const {
     const auto i = static_cast<std::size_t>(y * kTileSide);
-    if (tile_ == nullptr || other.tile_ == nullptr || tile_->loose || other.tile_->loose)
-      return false;
+    if (tile_ == nullptr || other.tile_ == nullptr) return false;
     const auto equal = [&](const auto& a, const auto& b) {
       return std::memcmp(&a[i], &b[i], kTileSide * sizeof a[0]) == 0;
     };
     return equal(tile_->height, other.tile_->height) && equal(tile_->soil, other.tile_->soil) &&
-           equal(tile_->specific_volume, other.tile_->specific_volume);
+           equal(tile_->specific_volume, other.tile_->specific_volume) &&
+           (tile_->loose == other.tile_->loose ||
+            (tile_->loose && other.tile_->loose && equal(*tile_->loose, *other.tile_->loose)));
   }
   bool same(const TileFace& other, int x, int y) const {
     const auto i = static_cast<std::size_t>(y * kTileSide + x);
