@@ -115,7 +115,7 @@ void Runner::copy_to(Runner& other) {
 }
 
 std::vector<heightfield::CellRect> Runner::refresh_heights() {
-  return heights_.update(sim::terrain_view(world(), heightfield::SurfaceKind::kMapped));
+  return heights_.update(sim::mapped_surface(world()));
 }
 std::vector<heightfield::CellRect> Runner::refresh_columns() {
   return columns_.update(sim::terrain_view(world(), heightfield::SurfaceKind::kColumns));

@@ -36,8 +36,9 @@ void add_areas(const scene::MachineInWorld& placed, const std::function<Pose(std
   for (const scene::Shell& shell : machine.shells) {
     const int link = machine.link_index(shell.link);
     if (link < 0 || shell.vertices.empty()) continue;
+    const Pose X_WL = pose(static_cast<std::size_t>(link));
     std::vector<Vec3> points;
-    for (const Vec3& v : shell.vertices) points.push_back(pose(static_cast<std::size_t>(link)) * v);
+    for (const Vec3& v : shell.vertices) points.push_back(X_WL * v);
     out.push_back(heightfield::area_around(points, driven));
   }
 }

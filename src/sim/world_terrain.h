@@ -19,6 +19,9 @@ namespace navvy::sim {
 /// A view of the columns only costs microseconds, depending on what has changed since the last
 /// view. A view with loose soil costs a pass over all particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface);
+/// Returns the surface for maps without the areas that bodies occupy, which readers of heights do
+/// not need.
+heightfield::TerrainView mapped_surface(const World& world);
 
 /// Distribution of the active soil between ground, tools and air [docs/exchange.md, maps]. Each
 /// mass list has one entry per soil of the scene, in units of kMassQuantum. The three masses of a
