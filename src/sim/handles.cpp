@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/handles.h"
 
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
 #include "sim/names.h"
 #include "sim/world_parts.h"
-#include "vehicle/stability.h"
 
 namespace navvy::sim {
 namespace {
@@ -88,14 +88,9 @@ Vec3 ToolHandle::rock_force() const { return load(*parts_, tool_).rock_W; }
 // It is computed once a step: operators, gauges and outputs read the same value.
 double ToolHandle::payload() const {
   const coupling::ToolLoad& tool = load(*parts_, tool_);
-  const Pose X_WL = parts_->coupling.engine(tool.machine)
-                        .link(parts_->coupling.index(tool.machine), tool.link)
-                        .X_WL;
-  parts_->payloads.resize(parts_->coupling.tools().size());
-  PayloadOfStep& latest = parts_->payloads[static_cast<std::size_t>(tool_)];
-  if (!latest.mass || latest.step != parts_->steps || latest.X_WL.affine() != X_WL.affine())
-    latest = {parts_->steps, X_WL, parts_->coupling.payload(tool)};
-  return *latest.mass;
+  std::optional<double>& out = parts_->payloads[static_cast<std::size_t>(tool_)];
+  if (!out) out = parts_->coupling.payload(tool);
+  return *out;
 }
 // Copied into sim's own type, so that no client sees the solver's.
 MomentumBalance ToolHandle::momentum_balance() const {
@@ -187,9 +182,13 @@ vehicle::DriveInput MachineHandle::drive() const {
 vehicle::BaseInput MachineHandle::base() const {
   return vehicle::base_target(parts_->coupling.engine(machine_), parts_->coupling.index(machine_));
 }
+// Computed once a step, too.
 vehicle::Stability MachineHandle::stability() const {
-  return vehicle::stability(description(), parts_->coupling.engine(machine_),
-                            parts_->coupling.index(machine_));
+  std::optional<vehicle::Stability>& out = parts_->stabilities[static_cast<std::size_t>(machine_)];
+  if (!out)
+    out = vehicle::stability(description(), parts_->coupling.engine(machine_),
+                             parts_->coupling.index(machine_));
+  return *out;
 }
 double MachineHandle::work() const {
   const vehicle::AccountCapability* accounts = parts_->coupling.engine(machine_).accounts();

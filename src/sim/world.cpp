@@ -31,6 +31,8 @@ double World::time() const { return parts_->time(); }
 
 /// Samples last, so that all samplers see the same instant.
 void World::step() {
+  // First, as a step that fails leaves another state, too.
+  parts_->forget_values();
   parts_->forces.push(parts_->coupling);
   parts_->coupling.step(parts_->dt);
   parts_->advance_encoders();

@@ -70,6 +70,7 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device,
   check_active(description, ground);
   for (const scene::ActiveSoil& active : description.ground.active) activate(active);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
+  forget_values();
 }
 
 void WorldParts::advance_encoders() {
@@ -104,6 +105,11 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   }
 }
 
+void WorldParts::forget_values() {
+  payloads.assign(coupling.tools().size(), std::nullopt);
+  stabilities.assign(description.machines.size(), std::nullopt);
+}
+
 /// Visits the head first and the ground next: a reader of the ground alone stops there
 /// (sim/snapshot.h). The order of the parts is the order in which a change reaches them in a step.
 void WorldParts::visit(Archive& a) {
@@ -120,8 +126,7 @@ void WorldParts::visit(Archive& a) {
   if (a.loading()) {
     steps = head.steps;
     dt = head.dt;
-    // Loading may lead to other soil at the same step.
-    payloads.clear();
+    forget_values();
   }
   a("ground", ground);
   a("soil", soil);

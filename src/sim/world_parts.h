@@ -20,6 +20,7 @@
 #include "soil/solver.h"
 #include "vehicle/encoder.h"
 #include "vehicle/physics_engine.h"
+#include "vehicle/stability.h"
 
 namespace navvy::device {
 class Device;
@@ -29,16 +30,6 @@ namespace navvy::sim {
 
 // Forward declared: the class that owns the parts and gives clients access to them.
 class World;
-
-/// Payload of a tool, as computed last. It saves the pass over the particles when several clients
-/// ask in one step.
-struct PayloadOfStep {
-  /// Number of the step and pose of the tool's link that the payload belongs to.
-  std::uint64_t step = 0;
-  Pose X_WL = Pose::Identity();
-  /// Payload [kg]; none before it was computed.
-  std::optional<double> mass;
-};
 
 /// Parts of a world in the order of their construction. Parts hold references to parts above them,
 /// so the struct can be neither copied nor moved.
@@ -100,8 +91,13 @@ struct WorldParts {
   double dt = 0;
   /// Number of base steps taken since the start of the simulation.
   std::uint64_t steps = 0;
-  /// Latest payload of each tool, in the order of Coupling::tools. Not part of the state.
-  mutable std::vector<PayloadOfStep> payloads;
+  /// Payload [kg] of each tool, in the order of Coupling::tools, and stability of each machine, in
+  /// the order of the scene, once a reader has asked for them in the current state. They save the
+  /// passes over particles and links when several outputs ask. Not part of the state.
+  mutable std::vector<std::optional<double>> payloads;
+  mutable std::vector<std::optional<vehicle::Stability>> stabilities;
+  /// Drops payloads and stabilities of the state before.
+  void forget_values();
 
  private:
   /// Fills the bed of a machine with the initial load that the scene specifies. Has no effect if

@@ -33,12 +33,18 @@ Axle axle_of(const WheelState& wheel) {
   return {wheel.X_WWheel.translation(), wheel.X_WWheel.linear().col(1)};
 }
 
-Placed placed_by(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
-  Placed out;
+std::vector<Pose> links_of(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
+  std::vector<Pose> out;
   for (std::size_t l = 0; l < machine.links.size(); ++l)
-    out.X_WL.push_back(engine.link(index, static_cast<int>(l)).X_WL);
+    out.push_back(engine.link(index, static_cast<int>(l)).X_WL);
+  return out;
+}
+
+std::vector<WheelState> wheels_of(const scene::Machine& machine, const PhysicsEngine& engine,
+                                  int index) {
+  std::vector<WheelState> out;
   for (std::size_t w = 0; w < machine.wheels.size(); ++w)
-    out.axles.push_back(axle_of(engine.wheel(index, static_cast<int>(w))));
+    out.push_back(engine.wheel(index, static_cast<int>(w)));
   return out;
 }
 
@@ -73,11 +79,11 @@ std::vector<Vec3> support_points_of(const scene::Machine& machine, const Placed&
 }
 
 /// Returns all support points. The force of a track is divided as its rollers press.
-std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine& engine,
-                              int index) {
+std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine& engine, int index,
+                              const std::vector<WheelState>& wheels) {
   std::vector<Bearing> out;
   for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
-    const WheelState wheel = engine.wheel(index, static_cast<int>(w));
+    const WheelState& wheel = wheels[w];
     if (!machine.wheels[w].track) {
       out.push_back({lowest_point(machine.wheels[w], axle_of(wheel)), wheel.force_W});
       continue;
@@ -261,7 +267,7 @@ Vec3 centre_of_mass(const scene::Machine& machine, const std::vector<Pose>& X_WL
 }
 
 Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
-  return centre_of_mass(machine, placed_by(machine, engine, index).X_WL);
+  return centre_of_mass(machine, links_of(machine, engine, index));
 }
 
 // Collects the support points first: margins and loads refer to their polygon.
@@ -275,7 +281,9 @@ Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, 
   // d/dt of up = w x up, and of its height cos(tilt). An upright axis has no direction of tilt.
   const double sine = std::sin(out.tilt);
   if (sine > 1e-6) out.tilt_rate = -base.w_WL.cross(up).z() / sine;
-  const Placed placed = placed_by(machine, engine, index);
+  const std::vector<WheelState> wheels = wheels_of(machine, engine, index);
+  Placed placed{links_of(machine, engine, index), {}};
+  for (const WheelState& wheel : wheels) placed.axles.push_back(axle_of(wheel));
   std::vector<Vec2> support_points;
   for (const Vec3& p : all_support_points(machine, placed)) support_points.push_back(p.head<2>());
   const Vec2 centre = centre_of_mass(machine, placed.X_WL).head<2>();
@@ -293,7 +301,7 @@ Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, 
   out.tipping_heading = std::atan2(weakest.outward.dot(left), weakest.outward.dot(ahead));
   // Without ground forces, or for a machine that nothing moves, use the centre of mass.
   Vec2 pressure_centre = centre;
-  centre_of_pressure(bearings(machine, engine, index), pressure_centre);
+  centre_of_pressure(bearings(machine, engine, index, wheels), pressure_centre);
   out.loaded_margin = support_margin(std::move(support_points), pressure_centre);
   return out;
 }
