@@ -2,8 +2,11 @@
 #include "soil/exchange/slump_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
+#include "core/memo.h"
 #include "soil/exchange/log_spiral.h"
 #include "soil/particles/soil_table.h"
 
@@ -20,6 +23,39 @@ constexpr double kRoughness = 0.2;
 constexpr int kLevels = 16;
 /// Largest height of a face [m].
 constexpr double kHighest = 100;
+
+/// What the drops of one soil follow from: friction angle [rad], cohesion x specific volume at the
+/// lowest level and its difference to the highest level [Pa], unit weight in bank state [N/m3], and
+/// edge of a cell [m].
+using DropKey = std::array<double, 5>;
+
+/// Returns the drops [m] of one soil at which it starts to slide, by level, distance and direction.
+/// Takes a millisecond: 512 entries, each with a search.
+std::vector<double> compute_drops(const DropKey& key) {
+  const auto [friction_angle, low, range, weight, cell] = key;
+  std::vector<double> out;
+  const FaceHeights faces(friction_angle);
+  for (int level = 0; level < kLevels; ++level) {
+    const double share = static_cast<double>(level) / (kLevels - 1);
+    const double strength = (low + range * share * share) / weight;
+    for (int steps = 1; steps <= SlumpTable::kReach; ++steps)
+      for (const bool diagonal : {false, true}) {
+        const double distance = steps * cell * (diagonal ? std::sqrt(2.0) : 1.0);
+        const double dry = distance * std::tan(friction_angle + kStartAbove) + kRoughness * cell;
+        // The face falls back by half a cell less than the distance of the columns' centres
+        // [docs/exchange.md, slump].
+        out.push_back(std::max(dry, faces.height(strength, distance - 0.5 * cell, kHighest)));
+      }
+  }
+  return out;
+}
+
+/// Returns the same, kept for the worlds of this process.
+std::vector<double> drops_of(const DropKey& key) {
+  // Never destroyed: a world may be made while static objects are destroyed.
+  static auto& kept = *new Memo<DropKey, std::vector<double>>;
+  return kept.at(key, [&] { return compute_drops(key); });
+}
 
 }  // namespace
 
@@ -40,11 +76,8 @@ double SlumpTable::cohesion(const Strength& of, double shear, double specific_vo
 
 SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, double gravity)
     : soils_(soils), cell_(cell) {
-  // Filled once per scene: 512 entries per soil, each with a search.
-  start_.resize(soils.size() * kLevels * kReach * 2);
   weakest_.assign(kReach * 2, kHighest);
-  for (std::size_t s = 0; s < soils.size(); ++s) {
-    const scene::Soil& soil = soils[s];
+  for (const scene::Soil& soil : soils) {
     // Soil of less than a degree of friction stops on level ground.
     stop_.push_back(cell * std::tan(std::max(soil.friction_angle - kStopBelow, 0.0)));
     const LawConstants law = law_constants(soil, cell);
@@ -60,23 +93,13 @@ SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, doubl
     of.low = std::min(of.loose * soil.swell, of.loose + of.dense);
     of.range = soil.cohesion - of.low;
     strengths_.push_back(of);
-    const FaceHeights faces(soil.friction_angle);
-    for (int level = 0; level < kLevels; ++level) {
-      const double share = static_cast<double>(level) / (kLevels - 1);
-      const double strength = (of.low + of.range * share * share) / (soil.bank_density * gravity);
-      for (int steps = 1; steps <= kReach; ++steps)
-        for (const bool diagonal : {false, true}) {
-          const double distance = steps * cell * (diagonal ? std::sqrt(2.0) : 1.0);
-          const double dry =
-              distance * std::tan(soil.friction_angle + kStartAbove) + kRoughness * cell;
-          // The face falls back by half a cell less than the distance of the columns' centres
-          // [docs/exchange.md, slump].
-          const double drop =
-              std::max(dry, faces.height(strength, distance - 0.5 * cell, kHighest));
-          start_[place(s, level, steps, diagonal)] = drop;
-          double& least = weakest_[place(0, 0, steps, diagonal)];
-          least = std::min(least, drop);
-        }
+    // In the order of `place`.
+    const std::vector<double> drops =
+        drops_of({soil.friction_angle, of.low, of.range, soil.bank_density * gravity, cell});
+    start_.insert(start_.end(), drops.begin(), drops.end());
+    for (std::size_t i = 0; i < drops.size(); ++i) {
+      double& least = weakest_[i % weakest_.size()];
+      least = std::min(least, drops[i]);
     }
   }
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "core/memo.h"
 #include "soil/host_law/double_contact.h"
 #include "soil/tools/contact.h"
 
@@ -34,10 +36,8 @@ void sample_triangle(const std::array<Vec3, 3>& corner, double longest, const Vi
 /// Plates a cell or two wide hardly touch soil at all; their area is not scaled up further.
 constexpr double kMostAreaFactor = 2;
 
-}  // namespace
-
-double plate_area_factor(const ShellGeometry& geometry, double cell,
-                         const SchemeConstants& scheme) {
+double compute_area_factor(const ShellGeometry& geometry, double cell,
+                           const SchemeConstants& scheme) {
   const reference::Reach r{scheme.contact_reach,
                            scheme.contact_ramp,
                            scheme.contact_edge,
@@ -60,6 +60,23 @@ double plate_area_factor(const ShellGeometry& geometry, double cell,
       stood_for += area * reference::contact_inner(std::min(inset, 1e3), &r);
     });
   return std::min(whole / std::max(stood_for, 1e-30), kMostAreaFactor);
+}
+
+}  // namespace
+
+double plate_area_factor(const ShellGeometry& geometry, double cell,
+                         const SchemeConstants& scheme) {
+  // All that the factor follows from; rims are sides of triangles, but of which ones is not.
+  std::vector<double> key{cell, scheme.contact_reach, scheme.contact_ramp, scheme.contact_edge,
+                          scheme.contact_edge_ramp};
+  for (const ShellGeometry::Triangle& triangle : geometry.triangles())
+    for (const Vec3& p : triangle.corner) key.insert(key.end(), p.data(), p.data() + 3);
+  for (const auto& rim : geometry.rims())
+    for (const Vec3& p : rim) key.insert(key.end(), p.data(), p.data() + 3);
+  // Kept for the worlds of this process, as it takes a millisecond. Never destroyed: a world may be
+  // made while static objects are destroyed.
+  static auto& kept = *new Memo<std::vector<double>, double>;
+  return kept.at(key, [&] { return compute_area_factor(geometry, cell, scheme); });
 }
 
 }  // namespace navvy::soil
