@@ -42,6 +42,17 @@ constexpr int kMostShapes = 16384;
 constexpr double kLost = 10;
 constexpr std::uint32_t kVersion = 7;
 
+/// Contacts and pairs of bodies for which Bullet reserves memory when a world is made; it allocates
+/// further ones singly. Its own 4096 take megabytes and a seventh of the time to make a world.
+constexpr int kReserved = 256;
+
+btDefaultCollisionConstructionInfo reserved_memory() {
+  btDefaultCollisionConstructionInfo out;
+  out.m_defaultMaxPersistentManifoldPoolSize = kReserved;
+  out.m_defaultMaxCollisionAlgorithmPoolSize = kReserved;
+  return out;
+}
+
 /// Hitch with its two machines.
 struct Coupled {
   BulletMachine* parent;
@@ -89,6 +100,7 @@ class BulletEngine final : public PhysicsEngine,
   BulletEngine(const Vec3& gravity, const scene::Materials& materials)
       : gravity_(gravity),
         materials_(materials),
+        configuration_(reserved_memory()),
         dispatcher_(&configuration_),
         broadphase_(kMostShapes),
         world_(&dispatcher_, &broadphase_, &configuration_) {
