@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <set>
-#include <sstream>
+#include <string_view>
 
 #include "core/file.h"
 #include "device/embedded_private.h"
@@ -13,7 +13,7 @@ namespace navvy::device {
 namespace {
 
 /// Returns the file that an include line names, or "" for any other line.
-std::string included_path(const std::string& line) {
+std::string_view included_path(std::string_view line) {
   std::size_t at = line.find_first_not_of(" \t");
   // Accepts blanks like a compiler does, so that no include that other tools accept is ignored.
   // Includes in angle brackets are not ours.
@@ -26,22 +26,24 @@ std::string included_path(const std::string& line) {
   return close == std::string::npos ? "" : line.substr(open + 1, close - open - 1);
 }
 
-bool is_pragma_once(const std::string& line) { return line.compare(0, 12, "#pragma once") == 0; }
+bool is_pragma_once(std::string_view line) { return line.compare(0, 12, "#pragma once") == 0; }
 
 /// Appends a file with its includes, depth first as a compiler reads it. Each file is included once
-/// per program, so headers need no guards.
-void expand(const std::string& path, const std::string& text, std::set<std::string>& seen,
+/// per program, so headers need no guards. Every world expands all programs to find those that are
+/// built, so no line is copied but to `out`.
+void expand(const std::string& path, std::string_view text, std::set<std::string>& seen,
             std::string& out) {
   seen.insert(path);
   out += "#line 1 \"" + path + "\"\n";
-  std::istringstream lines(text);
-  std::string line;
   // Line numbers are preserved, so that a build log refers to lines of the file.
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const std::string child = included_path(line);
+  for (int number = 1; !text.empty(); ++number) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    const std::string child(included_path(line));
     if (child.empty()) {
       // The driver sees a single text, where "once" would only cause a warning.
-      out += is_pragma_once(line) ? "\n" : line + "\n";
+      if (!is_pragma_once(line)) out += line;
+      out += '\n';
       continue;
     }
     if (seen.count(child) == 0) {
