@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace navvy::formats {
 
@@ -18,5 +19,8 @@ std::string npy_bytes(std::span<const std::int8_t> values, int nx, int ny);
 /// Returns the header of an NPY file with an array of shape (ny, nx) and element type '<f4'. The
 /// values follow it in the file.
 std::string npy_header(int nx, int ny);
+/// Returns the header of an NPY file with an array of any element type and shape. `descr`: element
+/// type in NumPy's notation, such as "<f4".
+std::string npy_header(const std::string& descr, const std::vector<std::uint64_t>& shape);
 
 }  // namespace navvy::formats
