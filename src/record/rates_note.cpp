@@ -28,7 +28,7 @@ std::string list(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::string rates_note(const sim::World& world, double control_rate) {
+std::string rates_note(const sim::World& world, double control_rate, double particle_rate) {
   const double dt = world.dt();
   // Rates that the steps meet exactly are not mentioned.
   std::vector<std::string> nearest, every;
@@ -45,6 +45,7 @@ std::string rates_note(const sim::World& world, double control_rate) {
   };
   look("control", control_rate);
   look("telemetry", world.description().recording.telemetry_rate);
+  look("particles", particle_rate);
   if (world.description().recording.render)
     for (const scene::Camera& camera : world.description().cameras)
       look("camera '" + camera.name + "'", camera.rate);

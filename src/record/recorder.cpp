@@ -16,6 +16,7 @@
 #include "record/crash_summary.h"
 #include "record/hash_log.h"
 #include "record/map_recorder.h"
+#include "record/particle_recorder.h"
 #include "record/path_file.h"
 #include "record/replay_recorder.h"
 #include "record/run_info.h"
@@ -53,6 +54,7 @@ struct Recorder::State {
   PictureFiles picture_files;
   std::unique_ptr<HashLog> hashes;
   std::unique_ptr<MapRecorder> maps;
+  std::unique_ptr<ParticleRecorder> particles;
   std::unique_ptr<ReplayRecorder> replay;
   RunStatus status;
   Stopwatch total, since_checkpoint, since_summary;
@@ -67,6 +69,7 @@ struct Recorder::State {
   void record_arrays();
   void hash_when_due();
   void map_when_due();
+  void write_particles_when_due();
   void replay_when_due();
   void checkpoint(bool force);
   void write_summary(bool with_hash);
@@ -108,7 +111,10 @@ void Recorder::State::write_start() {
     hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
   if (!session.world().description().records.empty())
     maps = std::make_unique<MapRecorder>(session, *folder, sensor_streams(session.world()));
+  if (options.particles.rate > 0)
+    particles = std::make_unique<ParticleRecorder>(session, *folder, options.particles);
   map_when_due();
+  write_particles_when_due();
   replay_when_due();
   checkpoint(true);
 }
@@ -138,7 +144,7 @@ void Recorder::State::move_out() {
       "the folder of the results '" + lost +
       "' was removed or replaced while the run wrote to it: summary, telemetry, hashes, "
       "arrays and the final ground are saved in '" +
-      folder->directory() + "'; pictures, maps and the ground at the start are lost");
+      folder->directory() + "'; pictures, maps, particles and the ground at the start are lost");
 }
 
 Recorder::~Recorder() = default;
@@ -204,6 +210,12 @@ void Recorder::State::map_when_due() {
   maps->observe();
 }
 
+void Recorder::State::write_particles_when_due() {
+  if (!particles) return;
+  const Lap lap(status.record_time);
+  particles->observe();
+}
+
 void Recorder::State::replay_when_due() {
   if (!replay) return;
   const Lap lap(status.record_time);
@@ -245,6 +257,7 @@ void Recorder::observe() {
   state_->draw_when_due();
   state_->hash_when_due();
   state_->map_when_due();
+  state_->write_particles_when_due();
   state_->replay_when_due();
   state_->checkpoint(false);
 }
@@ -255,9 +268,14 @@ void Recorder::restart() {
   s.arrays.restart();
   s.picture_files.restart();
   if (s.replay) s.replay->restart();
-  if (!s.maps) return;
-  s.maps->restart();
-  s.maps->observe();
+  if (s.maps) {
+    s.maps->restart();
+    s.maps->observe();
+  }
+  if (s.particles) {
+    s.particles->restart();
+    s.particles->observe();
+  }
 }
 
 void Recorder::State::finish_files(

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "record/particle_record.h"
 #include "record/picture_files.h"
 #include "record/run_folder.h"
 #include "record/summary.h"
@@ -31,6 +32,8 @@ struct Options {
   /// Interval of simulated time between two rows of hashes.csv [s]; 0 means that the file is not
   /// written.
   double hash_every = 0;
+  /// Active soil to write as files; by default none.
+  ParticleRecord particles;
   /// Minimum wall time between two updates of the telemetry and summary files [s].
   double checkpoint = 2;
   /// Text of the scene with all included files inserted, as scene_io::load_scene returns it, for
@@ -51,10 +54,10 @@ double wall_time_left(double simulated, double real_time_factor);
 /// terrain_start.tif and terrain_end.tif. The summary contains the hash of the state only at the
 /// start and at the end of the run. replay.jsonl (replay_recorder.h) shows it again. On request it
 /// also writes hashes.csv, pictures in frames/ (picture_files.h), each array output as
-/// arrays/<name>.npy (array_recorder.h), and the maps and bags that the scene asks for
-/// (map_recorder.h). If operators have planned paths, it writes paths.csv, and after a failure
-/// failed.snapshot. The memory use does not grow with the run. Not thread-safe; pictures are drawn
-/// on the calling thread and encoded on another one.
+/// arrays/<name>.npy (array_recorder.h), the active soil in particles/ (particle_recorder.h), and
+/// the maps and bags that the scene asks for (map_recorder.h). If operators have planned paths, it
+/// writes paths.csv, and after a failure failed.snapshot. The memory use does not grow with the
+/// run. Not thread-safe; pictures are drawn on the calling thread and encoded on another one.
 class Recorder {
  public:
   /// Creates the folder and writes the files for the start of the run. `folder` is a run folder
@@ -67,13 +70,13 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Records everything that is due in the current step: telemetry, arrays, pictures, hashes and
-  /// maps. Must be called after each step.
+  /// Records everything that is due in the current step: telemetry, arrays, pictures, hashes,
+  /// maps and particles. Must be called after each step.
   /// @throws FileError if a file cannot be written, for example on a full disk.
   void observe();
   /// Continues the recording after the session was put into another state, for example by loading a
-  /// snapshot. Recorded maps and bags begin new files (map_recorder.h); tables continue in the same
-  /// files.
+  /// snapshot. Recorded maps, bags and particles begin new files (map_recorder.h); tables continue
+  /// in the same files.
   /// @throws FileError if a file cannot be written.
   void restart();
   /// Writes the final files; only the first call has an effect. `status` is a value of

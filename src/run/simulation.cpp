@@ -15,6 +15,7 @@
 #include "planner/map_path_planner.h"
 #include "record/camera_pictures.h"
 #include "record/map_recorder.h"
+#include "record/particle_recorder.h"
 #include "record/rates_note.h"
 #include "record/recorder.h"
 #include "record/run_folder.h"
@@ -116,6 +117,7 @@ Simulation::Simulation(scene::Scene scene, SimulationOptions options)
   scene = with_options(std::move(scene), s.options);
   if (std::vector<Fault> faults = record::check_records(scene); !faults.empty())
     throw InputError(std::move(faults));
+  record::check_particles(s.options.particles);
   check_snapshot(s.options.snapshot, s.options.folder);
   // The folder is locked before minutes are spent, and emptied when the recording begins.
   std::unique_ptr<record::RunFolder> folder;
@@ -133,7 +135,7 @@ Simulation::Simulation(scene::Scene scene, SimulationOptions options)
   check_times(s.options, *s.session);
   for (const std::string& link : s.options.watch) s.session->watch(link);
   if (s.options.soil_energy) s.session->keep_soil_energy();
-  note(record::rates_note(s.world(), s.options.control_rate.value_or(0)));
+  note(record::rates_note(s.world(), s.options.control_rate.value_or(0), s.options.particles.rate));
   // A run of hours must not end at a path that cannot be written.
   s.snapshot_due = !s.options.snapshot.empty();
   if (s.snapshot_due) require_writable(s.options.snapshot);
@@ -154,6 +156,7 @@ void Simulation::State::start_recording(std::unique_ptr<record::RunFolder> folde
   out.picture_format = options.picture_format;
   out.replay = options.replay;
   out.hash_every = options.hash_every;
+  out.particles = options.particles;
   out.scene_text = options.scene_text;
   out.command = options.command;
   recorder = std::make_unique<record::Recorder>(*session, out, std::move(folder));

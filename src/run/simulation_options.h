@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "record/particle_record.h"
 #include "record/picture_format.h"
 #include "vehicle/physics_engine_factory.h"
 
@@ -59,6 +60,8 @@ struct SimulationOptions {
   bool replay = true;
   /// Simulated time between two rows of hashes.csv [s]; 0: the file is not written.
   double hash_every = 0;
+  /// Active soil that is written to particles/ in the output folder; by default none.
+  record::ParticleRecord particles;
   /// Text that is recorded as scene.sdf: the scene with all changes, as scene_io::load_scene
   /// returns it.
   std::string scene_text;

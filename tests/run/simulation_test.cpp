@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -13,8 +14,10 @@
 
 #include "core/error.h"
 #include "folder.h"
+#include "formats/particle_files.h"
 #include "render/image.h"
 #include "run/scene.h"
+#include "sim/read_particles.h"
 #include "text_of.h"
 
 namespace navvy::run {
@@ -259,6 +262,58 @@ TEST(Simulation, RecordsArraysThatNumPyReadsInOneLine) {
   const std::string command = "/usr/bin/python3 '" + (folder / "read.py") + "' '" + file + "' " +
                               std::to_string(last.sequence()) + " " + json(last.time()).dump();
   EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST(Simulation, RecordsParticlesAtARateWithAnIndex) {
+  const navvy::test::Folder folder;
+  SimulationOptions options;
+  options.folder = folder / "out";
+  options.particles = {10, "vtu"};
+  Simulation simulation(bucket_scene(10), options);
+  const int tenth = static_cast<int>(std::round(0.1 / simulation.world().dt()));
+  simulation.step(12 * tenth);
+  const std::string last = folder / "out/particles/particles_000012.vtu";
+  ASSERT_TRUE(std::filesystem::exists(last));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/particles/particles_000013.vtu"));
+  ASSERT_GT(simulation.world().soil().counts().particles, 100);
+  formats::particle_format_named("vtu").write(sim::read_particles(simulation.world()),
+                                              folder / "now.vtu");
+  EXPECT_EQ(navvy::test::text_of(last), navvy::test::text_of(folder / "now.vtu"));
+  // After a reset the files have another name, and those of the first time remain.
+  simulation.reset();
+  simulation.step(tenth);
+  simulation.finish();
+  EXPECT_EQ(navvy::test::text_of(folder / "out/particles/particles_2_000001.vtu"),
+            navvy::test::text_of(folder / "out/particles/particles_000001.vtu"));
+  const std::string index = navvy::test::text_of(folder / "out/particles/particles.pvd"),
+                    second = navvy::test::text_of(folder / "out/particles/particles_2.pvd");
+  const auto entries = [](const std::string& text) {
+    std::size_t count = 0, at = 0;
+    while ((at = text.find("<DataSet ", at) + 1) != 0) ++count;
+    return count;
+  };
+  EXPECT_EQ(entries(index), 13u) << index;
+  EXPECT_NE(index.find("file=\"particles_000012.vtu\""), std::string::npos) << index;
+  EXPECT_EQ(entries(second), 2u) << second;
+}
+
+TEST(Simulation, RefusesRatesAndFormatsOfParticlesBeforeItTouchesTheFolder) {
+  const navvy::test::Folder folder;
+  const auto refused = [&](const record::ParticleRecord& record) -> std::string {
+    SimulationOptions options;
+    options.folder = folder / "out";
+    options.particles = record;
+    try {
+      const Simulation simulation(bucket_scene(0.1), options);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const double rate : {-1.0, 1e-4, 1e9, std::nan("")})
+    EXPECT_NE(refused({rate, "npz"}).find("from 0.001 to 1000"), std::string::npos) << rate;
+  EXPECT_NE(refused({10, "vtk"}).find("did you mean 'vtu'?"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(Simulation, RecordsReadingsOfSensorsWithTheirTimes) {
