@@ -22,6 +22,8 @@ using Action = std::function<int()>;
 void add_run(CLI::App& app, Action& action, std::vector<std::string> command_line);
 /// Adds `navvy map`, which writes map layers of a site to a file.
 void add_map(CLI::App& app, Action& action);
+/// Adds `navvy particles`, which writes the active soil of a snapshot or scene to a file.
+void add_particles(CLI::App& app, Action& action);
 /// Adds `navvy show`, which draws a scene before its run.
 void add_show(CLI::App& app, Action& action);
 /// Adds `navvy check`, which reports errors in input files.

@@ -159,6 +159,7 @@ int run(int argc, char** argv) {
   cli::add_report(app, action);
   cli::add_import(app, action);
   cli::add_map(app, action);
+  cli::add_particles(app, action);
   cli::add_devices(app, action);
   cli::add_scenes(app, action);
   cli::add_machines(app, action);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <map>
@@ -13,12 +14,14 @@
 #include "cli/exit_code.h"
 #include "cli/scene_options.h"
 #include "cli/validators.h"
+#include "core/error.h"
 #include "core/log.h"
 #include "core/printable.h"
 #include "core/stopwatch.h"
 #include "link/control_stdio.h"
 #include "link/published_map.h"
 #include "link/sensor_publisher.h"
+#include "record/particle_recorder.h"
 #include "report/page.h"
 #include "run/simulation.h"
 #include "run/start_checks.h"
@@ -31,7 +34,7 @@ namespace {
 struct RunOptions {
   SceneOptions scene;
   run::SimulationOptions simulation;
-  std::string control, pictures;
+  std::string control, pictures, particles;
   double control_rate = 50;
   link::PublishOptions publish;
   // Address at which readings of sensors are published; empty if they are not.
@@ -161,6 +164,23 @@ std::map<std::string, record::PictureFormat> picture_formats() {
   return {{"video", record::PictureFormat::kVideo}, {"png", record::PictureFormat::kPng}};
 }
 
+/// Returns what RATE or RATE,FORMAT asks for. @throws InputError for a text of another form; rate
+/// and format themselves are checked by the simulation.
+record::ParticleRecord particle_record(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const std::size_t length = std::min(comma, text.size());
+  record::ParticleRecord out;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + length, out.rate);
+  // A rate of 0 would silently record nothing.
+  if (code != std::errc() || end != text.data() + length || out.rate == 0)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--particles", text,
+                           "does not begin with a rate above 0 in files per simulated second",
+                           "give RATE or RATE,FORMAT, for example 10,npz"});
+  if (comma != std::string::npos) out.format = text.substr(comma + 1);
+  record::check_particles(out);
+  return out;
+}
+
 /// Prints what the pictures of the run cost.
 void print_pictures(std::FILE* out, const run::RunEnd& end) {
   if (end.pictures == 0 || end.wall_time <= 0) return;
@@ -223,6 +243,7 @@ int run_scene(RunOptions options) {
   run::SimulationOptions& wanted = options.simulation;
   // Cheap checks come before the scene is loaded.
   run::check_resume(wanted.resume);
+  if (!options.particles.empty()) wanted.particles = particle_record(options.particles);
   link::require_publishable(options.publish);
   if (!options.publish_sensors.empty())
     link::SensorPublisher::require_address(options.publish_sensors);
@@ -278,13 +299,20 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
       ->check([](const std::string& text) {
         return picture_formats().count(text) > 0 ? "" : "'" + text + "' is not video or png";
       });
+  command
+      ->add_option("--particles", options->particles,
+                   "RATE[,FORMAT]: write the active soil to particles/ this often per simulated "
+                   "second, as vtu (default), npz or ply")
+      ->check([](const std::string& text) {
+        return text.empty() ? "no rate is given; use RATE or RATE,FORMAT, for example 10,npz" : "";
+      });
   // Options that need each other are given by pointer: CLI11 does not survive running out of memory
   // while it looks up names.
   CLI::Option* control =
       command->add_option("--control", options->control,
                           "stdio: per control step print one JSON line of outputs "
                           "and read one of inputs, in lock step; requests for maps, "
-                          "arrays, pictures and states come between them");
+                          "arrays, particles, pictures and states come between them");
   command
       ->add_option("--control-rate", options->control_rate,
                    "control steps per simulated second (50); the base step divides their period")
