@@ -20,6 +20,7 @@
 #include "map/map_sources.h"
 #include "render/image.h"
 #include "sensor/sensor_output.h"
+#include "sim/read_particles.h"
 
 namespace navvy::link {
 
@@ -27,7 +28,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kRequests[] = {"heights", "changed", "arrays", "frames", "image",
+constexpr const char* kRequests[] = {"heights", "changed", "arrays", "frames", "particles", "image",
                                      "info",    "reset",   "save",   "load",   "watch"};
 /// Maximum number of values in an answer: a million numbers are 10 MB of JSON.
 constexpr double kMostCells = 1e6;
@@ -77,19 +78,23 @@ json value_of(const sim::ArrayView& view) {
   return out;
 }
 
-/// Returns the names in a request for arrays; `true` stands for all arrays.
+/// Returns the names in a request; `true` stands for `all`.
 std::vector<std::string> names_in(const std::string& key, const json& what,
-                                  const sim::ArrayOutputs& all, std::size_t most) {
+                                  std::vector<std::string> all, std::size_t most) {
+  if (what == json(true)) return all;
   std::vector<std::string> out;
-  if (what == json(true)) {
-    for (const sim::ArrayChannel& channel : all.channels()) out.push_back(channel.name);
-    return out;
-  }
   if (!what.is_array() || what.size() > most)
     refuse(key, what,
            "must be a list of at most " + std::to_string(most) + " names, or true for all",
            "{\"" + key + R"(": ["name"]})");
   for (const json& name : what) out.push_back(text_in(key, name));
+  return out;
+}
+
+/// Returns the names of all arrays.
+std::vector<std::string> names_of(const sim::ArrayOutputs& arrays) {
+  std::vector<std::string> out;
+  for (const sim::ArrayChannel& channel : arrays.channels()) out.push_back(channel.name);
   return out;
 }
 
@@ -141,6 +146,7 @@ json ControlRequests::dispatch(const std::string& key, const json& what) {
   if (key == "changed") return changed(what);
   if (key == "arrays") return arrays(what);
   if (key == "frames") return frames(what);
+  if (key == "particles") return particles(what);
   if (key == "image") return image(what);
   if (key == "watch") return watch(what);
   if (key == "info" || key == "reset") must_be_true(key, what);
@@ -277,7 +283,7 @@ json ControlRequests::changed(const json& what) {
 json ControlRequests::arrays(const json& what) const {
   const sim::ArrayOutputs& all = simulation_.arrays();
   json out = json::object();
-  for (const std::string& name : names_in("arrays", what, all, kMaxArrays))
+  for (const std::string& name : names_in("arrays", what, names_of(all), kMaxArrays))
     out[name] = value_of(all.view(name));
   return out;
 }
@@ -287,7 +293,7 @@ json ControlRequests::frames(const json& what) {
   const sim::ArrayOutputs& all = simulation_.arrays();
   json list = json::array();
   std::string bytes;
-  for (const std::string& name : names_in("frames", what, all, kMaxArrays)) {
+  for (const std::string& name : names_in("frames", what, names_of(all), kMaxArrays)) {
     const sim::ArrayView view = all.view(name);
     json one = array_header(view);
     one["name"] = name;
@@ -298,6 +304,32 @@ json ControlRequests::frames(const json& what) {
   // Only now, so that an unknown name leaves nothing behind.
   bytes_ = std::move(bytes);
   return {{"arrays", list}, {"time", simulation_.time()}, {"bytes", bytes_.size()}};
+}
+
+/// Answers with quantities of all active particles, whose elements follow the line in its order.
+json ControlRequests::particles(const json& what) {
+  std::vector<std::string> all;
+  for (const scene::ParticleArray& one : scene::ParticleTable().arrays()) all.push_back(one.name);
+  const std::vector<std::string> names = names_in("particles", what, all, all.size());
+  // An unknown name is refused before the pass over the particles.
+  scene::ParticleTable().arrays(names);
+  const scene::ParticleTable table = sim::read_particles(simulation_.world());
+  json list = json::array(), soils = json::array();
+  for (const scene::ParticleArray& one : table.arrays(names)) {
+    json shape = json::array({table.count()});
+    for (const int length : one.shape) shape.push_back(length);
+    list.push_back({{"name", one.name},
+                    {"type", scene::name_of(one.type)},
+                    {"shape", shape},
+                    {"unit", one.unit},
+                    {"meaning", one.meaning},
+                    {"bytes", one.bytes.size()}});
+    bytes_.append(reinterpret_cast<const char*>(one.bytes.data()), one.bytes.size());
+  }
+  for (const scene::ParticleSoil& soil : table.soils)
+    soils.push_back({{"name", soil.name}, {"bank_density_kg_m3", soil.bank_density}});
+  return {{"arrays", list},     {"soils", soils},       {"count", table.count()},
+          {"time", table.time}, {"steps", table.steps}, {"bytes", bytes_.size()}};
 }
 
 /// Answers with a picture as PNG.

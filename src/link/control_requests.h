@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests that a controller can make between two steps: maps, arrays, pictures, states.
+// Requests that a controller can make between two steps: maps, arrays, particles, pictures, states.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ struct ControlServices {
 /// Answers requests of a controller (docs/reference/control_protocol.md).
 ///
 /// A request is a JSON object with one key: "info", "heights", "changed", "arrays", "frames",
-/// "image", "reset", "save", "load" or "watch". Simulated time does not advance while a request is
-/// answered.
+/// "particles", "image", "reset", "save", "load" or "watch". Simulated time does not advance while
+/// a request is answered.
 ///
 /// The requests "heights" and "changed" use a map that this class makes at its construction and
 /// updates at each such request.
@@ -50,7 +50,7 @@ class ControlRequests {
   /// "load"), so that its outputs have changed.
   bool moved() const { return moved_; }
   /// Returns the bytes that follow the line of the last answer: the elements of the arrays of
-  /// "frames"; empty after all other requests.
+  /// "frames" or "particles"; empty after all other requests.
   const std::string& bytes() const { return bytes_; }
 
  private:
@@ -65,6 +65,9 @@ class ControlRequests {
   nlohmann::json arrays(const nlohmann::json& what) const;
   /// Answers "frames": as "arrays", with the elements as bytes behind the line.
   nlohmann::json frames(const nlohmann::json& what);
+  /// Answers "particles": the named quantities of all active particles, or all quantities, with the
+  /// elements as bytes behind the line.
+  nlohmann::json particles(const nlohmann::json& what);
   /// Answers "image": the picture of a camera as PNG.
   nlohmann::json image(const nlohmann::json& what) const;
   /// Answers "info": scene, device, rates, site and channels.

@@ -11,6 +11,7 @@
 #include "core/base64.h"
 #include "core/error.h"
 #include "run/scene.h"
+#include "sim/read_particles.h"
 
 namespace navvy::link {
 namespace {
@@ -68,6 +69,47 @@ TEST(ControlRequests, SendFramesAsBytesBehindTheLine) {
   const json info = requests.answer({{"info", true}}).at("info").at("sensors").at("bucket/gauge");
   EXPECT_EQ(info.at("type"), "navvy:joint");
   EXPECT_EQ(info.at("arrays"), json({"bucket/gauge/state"}));
+}
+
+TEST(ControlRequests, SendParticlesAsBytesBehindTheLine) {
+  run::Simulation simulation(run::test::bucket_scene(2));
+  ControlRequests requests(simulation, 50);
+  ASSERT_TRUE(ControlRequests::is_request(json{{"particles", true}}));
+  const json none = requests.answer({{"particles", true}}).at("particles");
+  EXPECT_EQ(none.at("count"), 0);
+  EXPECT_EQ(none.at("bytes"), 0);
+  EXPECT_EQ(none.at("arrays").size(), scene::ParticleTable().arrays().size());
+  simulation.step(600);
+  const scene::ParticleTable table = sim::read_particles(simulation.world());
+  ASSERT_GT(table.count(), 100u);
+  const json answer = requests.answer({{"particles", {"velocity", "mass"}}}).at("particles");
+  EXPECT_EQ(answer.at("count"), table.count());
+  EXPECT_EQ(answer.at("steps"), 600);
+  EXPECT_EQ(answer.at("time"), simulation.time());
+  EXPECT_EQ(answer.at("soils")[0].at("name"), table.soils[0].name);
+  ASSERT_EQ(answer.at("arrays").size(), 2u);
+  EXPECT_EQ(answer.at("arrays")[0].at("shape"), json({table.count(), 3}));
+  EXPECT_EQ(answer.at("arrays")[0].at("type"), "float32");
+  EXPECT_EQ(answer.at("arrays")[1].at("unit"), "kg");
+  EXPECT_EQ(answer.at("arrays")[1].at("bytes"), 8 * table.count());
+  ASSERT_EQ(requests.bytes().size(), 20 * table.count());
+  EXPECT_EQ(std::memcmp(requests.bytes().data(), table.velocity.data(), 12 * table.count()), 0);
+  EXPECT_EQ(std::memcmp(requests.bytes().data() + 12 * table.count(), table.mass.data(),
+                        8 * table.count()),
+            0);
+  // A refused request leaves no bytes and says what is known.
+  const auto refused = [&](const json& line) -> std::string {
+    try {
+      requests.answer(line);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refused({{"particles", {"densty"}}}).find("did you mean 'density'?"),
+            std::string::npos);
+  EXPECT_NE(refused({{"particles", 3}}).find("or true for all"), std::string::npos);
+  EXPECT_TRUE(requests.bytes().empty());
 }
 
 TEST(ControlRequests, RefuseUnknownArraysWithTheNearestName) {
