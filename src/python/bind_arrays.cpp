@@ -12,6 +12,7 @@
 #include "map/map_maker.h"
 #include "python/bindings.h"
 #include "python/runner.h"
+#include "sim/read_particles.h"
 #include "sim/world_terrain.h"
 
 namespace nb = nanobind;
@@ -72,35 +73,48 @@ nb::object layer(Runner& runner, const std::string& name) {
       nb::ndarray<nb::numpy, float, nb::ndim<2>>(values->data(), 2, shape, keep(values)));
 }
 
-/// Returns the active particles as arrays that share one block of memory.
+nb::dlpack::dtype dtype_of(scene::ParticleElement type) {
+  switch (type) {
+    case scene::ParticleElement::kUint16:
+      return nb::dtype<std::uint16_t>();
+    case scene::ParticleElement::kUint32:
+      return nb::dtype<std::uint32_t>();
+    case scene::ParticleElement::kFloat32:
+      return nb::dtype<float>();
+    case scene::ParticleElement::kFloat64:
+      break;
+  }
+  return nb::dtype<double>();
+}
+
+/// Returns the active particles as arrays by name, which keep the table that they are part of.
 nb::dict particles(Runner& runner) {
   const Runner::Use use(runner);
-  using Particles = std::vector<sim::SoilParticle>;
-  std::shared_ptr<Particles> all;
+  std::shared_ptr<scene::ParticleTable> table;
   {
     const nb::gil_scoped_release unlocked;
-    all = std::make_shared<Particles>(runner.world().soil().particles());
+    table = std::make_shared<scene::ParticleTable>(sim::read_particles(runner.world()));
   }
-  // An empty list has no first particle to point to.
-  const std::size_t count = all->size();
-  if (count == 0) all->emplace_back();
-  static_assert(sizeof(sim::SoilParticle) % sizeof(double) == 0);
-  constexpr auto kStride = static_cast<std::int64_t>(sizeof(sim::SoilParticle) / sizeof(double));
-  sim::SoilParticle& first = all->front();
-  const auto vectors = [&](double* data) {
-    const std::size_t shape[] = {count, 3};
-    const std::int64_t strides[] = {kStride, 1};
-    return nb::cast(nb::ndarray<nb::numpy, double>(data, 2, shape, keep(all), strides));
-  };
   nb::dict out;
-  out["position"] = vectors(first.p_W.data());
-  out["velocity"] = vectors(first.v_W.data());
-  const std::size_t shape[] = {count};
-  const std::int64_t stride[] = {kStride};
-  out["mass"] = nb::cast(nb::ndarray<nb::numpy, double>(&first.mass, 1, shape, keep(all), stride));
-  constexpr std::int64_t kSoilStride[] = {sizeof(sim::SoilParticle) / sizeof(std::uint16_t)};
-  out["soil"] = nb::cast(
-      nb::ndarray<nb::numpy, std::uint16_t>(&first.soil, 1, shape, keep(all), kSoilStride));
+  for (const scene::ParticleArray& one : table->arrays()) {
+    std::vector<std::size_t> shape = {table->count()};
+    for (const int length : one.shape) shape.push_back(static_cast<std::size_t>(length));
+    // The table belongs to the arrays alone, so they may be written to. An empty one has no memory,
+    // but an array needs an address.
+    static std::byte nothing[8];
+    std::byte* data = one.bytes.empty() ? nothing : const_cast<std::byte*>(one.bytes.data());
+    out[one.name.c_str()] = nb::cast(nb::ndarray<nb::numpy>(
+        data, shape.size(), shape.data(), keep(table), nullptr, dtype_of(one.type)));
+  }
+  return out;
+}
+
+/// Returns the names of the soils, in which the particles' `soil` counts.
+nb::list soils(Runner& runner) {
+  const Runner::Use use(runner);
+  nb::list out;
+  for (const scene::Soil& one : runner.world().description().soils)
+    out.append(nb::str(one.name.c_str()));
   return out;
 }
 
@@ -177,6 +191,7 @@ void bind_arrays(nb::module_& module, nb::class_<Runner>& type) {
       .def_prop_ro("columns", &columns)
       .def("layer", &layer, nb::arg("name"))
       .def("particles", &particles)
+      .def_prop_ro("soils", &soils)
       .def("array", &array, nb::arg("name"))
       .def("array_info", &array_info, nb::arg("name"))
       .def_prop_ro("arrays", &arrays)

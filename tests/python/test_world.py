@@ -152,6 +152,26 @@ class Arrays(unittest.TestCase):
         self.assertTrue(((inside > low) & (inside < high)).all())
         self.assertTrue((particles["mass"] > 0).all())
         self.assertEqual(set(particles["soil"]), {0})
+        self.assertEqual(len(self.world.soils), 1)
+
+    def test_particles_have_the_state_of_the_soil(self):
+        empty = navvy.World(SCENE).particles()
+        self.assertEqual(empty["position"].shape, (0, 3))
+        self.assertEqual(empty["mass"].sum(), 0)
+        self.world.step(600)
+        particles = self.world.particles()
+        count = self.world.particle_count
+        self.assertGreater(count, 100)
+        self.assertEqual(particles["stress"].shape, (count, 6))
+        self.assertEqual(particles["velocity_gradient"].shape, (count, 3, 3))
+        self.assertEqual(particles["velocity"].dtype, np.float32)
+        self.assertEqual(len(set(particles["id"])), count)
+        self.assertTrue((np.diff(particles["id"].astype(np.int64)) > 0).all())
+        # Density is rounded to float32 once.
+        bank = particles["density"].astype(float) * particles["volume_ratio"]
+        np.testing.assert_allclose(bank, bank[0], rtol=2e-7)
+        self.assertTrue((particles["density_state"] > 0.5).all())
+        self.assertTrue((particles["plastic_shear"] >= 0).all())
 
     def test_layers_are_known_by_name(self):
         self.assertIn("slope", navvy.layers())
