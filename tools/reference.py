@@ -26,6 +26,7 @@ COMMANDS = [
     "import",
     "show",
     "map",
+    "particles",
     "devices",
     "scenes",
     "machines",
