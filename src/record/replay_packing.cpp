@@ -5,6 +5,10 @@
 
 namespace navvy::record {
 
+std::string replay_row(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 nlohmann::json json_of(const Pose& pose) {
   const Vec3 p = pose.translation();
   const Eigen::Quaterniond q(pose.linear());

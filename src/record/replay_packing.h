@@ -18,6 +18,9 @@ std::string packed(const std::vector<T>& values) {
   return base64(std::as_bytes(std::span(values)));
 }
 
+/// Returns one row of a replay, without a line end. Names may be in another encoding than UTF-8.
+std::string replay_row(const nlohmann::json& value);
+
 /// Returns the position [m] and the quaternion w, x, y, z of a pose.
 nlohmann::json json_of(const Pose& pose);
 

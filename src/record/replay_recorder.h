@@ -2,14 +2,14 @@
 // Records what is needed to show a run again: ground, poses, forces and loose soil over time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
-#include "record/replay_heights.h"
+#include "core/math.h"
+#include "record/replay_frames.h"
 #include "record/row_file.h"
 #include "session/session.h"
-#include "sim/visible_soil.h"
 
 namespace navvy::record {
 
@@ -52,15 +52,12 @@ class ReplayRecorder {
  private:
   /// Adds a frame of the present state; `key`: with all tiles that ever changed.
   void add_frame(bool key);
-  /// Returns the places of loose soil apart from the ground: x, y, z from the corner and base of
-  /// the heights, in the unit that the header names.
-  std::vector<std::int16_t> particles() const;
 
   const session::Session& session_;
-  sim::VisibleSoil soil_;
-  ReplayHeights heights_;
+  ReplayFrames frames_;
   RowFile file_;
-  std::uint64_t frames_ = 0;
+  /// Number of frames so far.
+  std::uint64_t count_ = 0;
   std::uint64_t last_step_ = 0;
 };
 
