@@ -17,4 +17,8 @@ inline constexpr const char* kPageName = "report.html";
 /// page cannot be written.
 void write_page(const std::vector<std::string>& folders, const std::string& file);
 
+/// Returns the text that `write_page` writes. Videos that are too large for the page are linked
+/// relative to the folder `page_folder`. @throws InputError as `write_page` does.
+std::string page_text(const std::vector<std::string>& folders, const std::string& page_folder);
+
 }  // namespace navvy::report

@@ -162,6 +162,10 @@ std::size_t count_frames(const std::string& file) {
   return out;
 }
 
+void read_header(const std::string& row, json& run) {
+  take_header("replay", json::parse(row, nullptr, false), run);
+}
+
 ReplayCounts read_replay(const std::string& file, std::size_t every, json& run) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read '" + file + "'");

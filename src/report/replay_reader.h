@@ -17,6 +17,10 @@ struct ReplayCounts {
 /// Returns the number of frames in the file; 0 if there is no such file.
 std::size_t count_frames(const std::string& file);
 
+/// Sets the members `grid`, `start`, `design`, `soils`, `links`, `cylinders` and `forces` of a
+/// page's run from the first row of a replay. @throws InputError if the row is not such a header.
+void read_header(const std::string& row, nlohmann::json& run);
+
 /// Sets the members `grid`, `start`, `design`, `soils`, `links`, `cylinders`, `forces` and `frames`
 /// of a page's run. Of the frames it takes every one whose number is a multiple of `every`, and the
 /// last one. A frame holds all tiles of the ground that changed since the one taken before it.

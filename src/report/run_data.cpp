@@ -202,14 +202,7 @@ void Reader::read_pictures() {
 }
 
 json Reader::read(std::size_t most) {
-  out_ = {{"notes", json::array()},    {"scene_text", ""},
-          {"grid", nullptr},           {"start", ""},
-          {"design", nullptr},         {"soils", json::array()},
-          {"links", json::array()},    {"cylinders", json::array()},
-          {"forces", json::array()},   {"frames", nullptr},
-          {"paths", json::array()},    {"phases", json::array()},
-          {"telemetry", nullptr},      {"videos", json::array()},
-          {"pictures", json::array()}, {"folder", folder_.string()}};
+  out_ = empty_run("", folder_.string());
   out_["run"] = object_of("run.json");
   out_["summary"] = object_of("summary.json");
   const json& summary = out_["summary"];
@@ -234,6 +227,29 @@ json Reader::read(std::size_t most) {
 }
 
 }  // namespace
+
+json empty_run(const std::string& name, const std::string& folder) {
+  return {{"name", name},
+          {"folder", folder},
+          {"complete", false},
+          {"notes", json::array()},
+          {"run", nullptr},
+          {"summary", nullptr},
+          {"scene_text", ""},
+          {"grid", nullptr},
+          {"start", ""},
+          {"design", nullptr},
+          {"soils", json::array()},
+          {"links", json::array()},
+          {"cylinders", json::array()},
+          {"forces", json::array()},
+          {"frames", nullptr},
+          {"paths", json::array()},
+          {"phases", json::array()},
+          {"telemetry", nullptr},
+          {"videos", json::array()},
+          {"pictures", json::array()}};
+}
 
 json run_data(const std::string& folder, const std::string& page_folder, std::size_t most) {
   std::error_code failed;

@@ -8,6 +8,9 @@
 
 namespace navvy::report {
 
+/// Returns the data of a run of which only the name and the folder are known.
+nlohmann::json empty_run(const std::string& name, const std::string& folder);
+
 /// Returns the data of the run in `folder`, in the form that the scripts of the page read
 /// (src/report/page/README.md). Frames and rows of telemetry are thinned evenly until the text has
 /// about `most` bytes, with a note that says so; videos of at most 2 MB are part of the data,

@@ -16,9 +16,12 @@ LONGEST = 120.0  # [s]
 
 
 class Browser:
-    """One page in one browser process. The network is off; messages of the page are kept."""
+    """One page in one browser process. Messages of the page are kept.
 
-    def __init__(self, webgl=True):
+    The network is off, except for pages that are served from this machine.
+    """
+
+    def __init__(self, webgl=True, offline=True):
         self.folder = tempfile.mkdtemp(prefix="navvy_page_")
         self.number = 0
         self.buffer = b""
@@ -32,7 +35,7 @@ class Browser:
                                  {"targetId": target, "flatten": True})["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self._ask(domain + ".enable", {})
-        self._ask("Network.emulateNetworkConditions", {"offline": True, "latency": 0,
+        self._ask("Network.emulateNetworkConditions", {"offline": offline, "latency": 0,
                                                        "downloadThroughput": -1,
                                                        "uploadThroughput": -1})
 
@@ -113,10 +116,14 @@ class Browser:
         path = os.path.join(self.folder, "page.html")
         with open(path, "w", encoding="utf-8") as file:
             file.write(page)
+        self.visit("file://" + path)
+
+    def visit(self, url):
+        """Opens an address and waits until the page shows its data."""
         self.messages.clear()
         self.requests.clear()
         self.loaded = False
-        self._ask("Page.navigate", {"url": "file://" + path})
+        self._ask("Page.navigate", {"url": url})
         deadline = time.monotonic() + LONGEST
         while not self.loaded:
             self._note(self._receive(deadline))

@@ -24,8 +24,8 @@ STYLES = [DYGRAPHS / "dygraph.min.css", PAGE / "page.css"]
 # The scripts only need the namespace of the first one, and the last one starts the page.
 SCRIPTS = ["base.js", "data.js", "ground.js", "machines.js", "colors.js", "player.js", "outcome.js",
            "results.js", "cycles.js", "chart_groups.js", "chart.js", "charts.js", "map_view.js",
-           "ground_map.js", "scene_ground.js", "scene_machines.js", "scene3d.js", "media.js",
-           "compare.js", "main.js"]
+           "ground_map.js", "scene_ground.js", "scene_machines.js", "scene3d.js", "live.js",
+           "media.js", "compare.js", "main.js"]
 
 NX, NY, CELL = 90, 70, 0.1
 ORIGIN = [-2.0, -3.5]

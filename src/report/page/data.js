@@ -12,6 +12,13 @@
   }
   navvy.bytesOf = bytesOf;
 
+  // Array of a text of base64 without compression, as in frames of a live run.
+  navvy.plainArray = function (text, Type, what) {
+    const bytes = bytesOf(text || '');
+    if (bytes.length % Type.BYTES_PER_ELEMENT) throw new Error(what + ' is cut off');
+    return new Type(bytes.buffer);
+  };
+
   async function inflate(bytes) {
     if (typeof DecompressionStream === 'undefined')
       throw new Error('this browser has no DecompressionStream; use Chrome 80, Firefox 113, ' +

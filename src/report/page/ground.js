@@ -31,8 +31,6 @@
 
     // Goes through all frames once: fills `before` and finds where and how much heights change.
     first() {
-      const box = {x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity};
-      const least = kVisibleChange / this.grid.unit_m;
       for (let frame = 0; frame + 1 < this.offsets.length; ++frame)
         for (let tile = this.offsets[frame]; tile < this.offsets[frame + 1]; ++tile) {
           const at = tile * navvy.kTileSize;
@@ -41,16 +39,34 @@
           this.eachColumn(at, (column, value, x, y) => {
             this.before[value] = this.now[column];
             this.now[column] = this.tiles[value];
-            const change = Math.abs(this.now[column] - this.start[column]);
-            if (change > this.largestChange) this.largestChange = change;
-            if (change < least) return;
-            box.x0 = Math.min(box.x0, x); box.x1 = Math.max(box.x1, x + 1);
-            box.y0 = Math.min(box.y0, y); box.y1 = Math.max(box.y1, y + 1);
+            this.note(column, x, y);
           });
         }
       this.frame = this.offsets.length - 2;
-      this.largestChange *= this.grid.unit_m;
-      if (box.x1 > box.x0) this.changed = box;
+    }
+
+    // Widens what is known of the changes by the present height of a column.
+    note(column, x, y) {
+      const change = Math.abs(this.now[column] - this.start[column]) * this.grid.unit_m;
+      if (change > this.largestChange) this.largestChange = change;
+      if (change < kVisibleChange) return;
+      if (!this.changed) this.changed = {x0: x, y0: y, x1: x + 1, y1: y + 1};
+      const box = this.changed;
+      if (x < box.x0) box.x0 = x;
+      if (y < box.y0) box.y0 = y;
+      if (x >= box.x1) box.x1 = x + 1;
+      if (y >= box.y1) box.y1 = y + 1;
+    }
+
+    // Takes tiles of a live run, which has no frames to go back to.
+    take(tiles) {
+      if (tiles.length % navvy.kTileSize) throw new Error('a tile of the ground is cut off');
+      this.tiles = tiles;
+      for (let at = 0; at < tiles.length; at += navvy.kTileSize)
+        this.eachColumn(at, (column, value, x, y) => {
+          this.now[column] = tiles[value];
+          this.note(column, x, y);
+        });
     }
 
     // Calls act(index of the column, index of the value, x, y) for the columns of a tile.
@@ -131,12 +147,28 @@
                               run.ground.changed || {});
     widenByMachines(run, box);
     widenByDesign(run, box);
-    const margin = 2 / cell_m;
+    const margin = (run.margin_m || 2) / cell_m;
     const whole = !(box.x1 > box.x0 && box.y1 > box.y0);
     run.region = whole ? {x0: 0, y0: 0, x1: nx, y1: ny} : {
       x0: Math.max(0, Math.floor(box.x0 - margin)), y0: Math.max(0, Math.floor(box.y0 - margin)),
       x1: Math.min(nx, Math.ceil(box.x1 + margin)), y1: Math.min(ny, Math.ceil(box.y1 + margin))
     };
     return run.region;
+  };
+
+  // Returns true if work was done outside of the region that views show, which is then renewed.
+  navvy.regionGrew = function (run) {
+    const old = run.region, grid = run.grid;
+    if (!old) return false;
+    const box = Object.assign({x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity},
+                              run.ground.changed || {});
+    widenByMachines(run, box);
+    // A machine may leave the site; what is outside needs no ground.
+    const inside = Math.max(0, box.x0) >= old.x0 && Math.max(0, box.y0) >= old.y0 &&
+                   Math.min(grid.nx, box.x1) <= old.x1 && Math.min(grid.ny, box.y1) <= old.y1;
+    if (inside) return false;
+    run.region = null;
+    navvy.activeRegion(run);
+    return true;
   };
 })();

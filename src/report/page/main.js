@@ -36,6 +36,12 @@
     const data = navvy.readDocument();
     const runs = await Promise.all(data.runs.map(navvy.readRun));
     navvy.runs = runs;
+    if (data.live) {
+      shown = await navvy.showLive(data, runs[0]);
+      navvy.shown = shown;
+      navvy.onRedraw(reason => shown.parts.forEach(part => part && part.redraw(reason)));
+      return;
+    }
     const comparison = navvy.showComparison(runs);
     showRun(data, runs, 0);
     showContents();

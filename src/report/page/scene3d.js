@@ -36,7 +36,9 @@
       this.request = navvy.drawWhenSeen(canvas, () => this.draw());
       this.controls.addEventListener('change', this.request);
       if (clock) clock.on(this.request);
-      body.append(this.makeControls(), el('div', {class: 'view3d'}, canvas), this.caption());
+      this.text = el('p', {class: 'muted'});
+      body.append(this.makeControls(), el('div', {class: 'view3d'}, canvas), this.text);
+      this.caption();
       this.home();
       this.draw();
     }
@@ -51,6 +53,22 @@
     addGround() {
       this.ground = new navvy.GroundMesh(this.run);
       this.scene.add(this.ground.object, this.ground.sides);
+    }
+
+    // Takes what a live run has changed: scales, and the part of the site that is shown finely.
+    refresh() {
+      if (this.movers && this.movers.fitForces()) this.caption();
+      if (this.ground && navvy.regionGrew(this.run)) {
+        const {byChange, object, sides} = this.ground;
+        for (const old of [object, sides]) {
+          this.scene.remove(old);
+          old.geometry.dispose();
+          old.material.dispose();
+        }
+        this.addGround();
+        this.ground.byChange = byChange;
+      }
+      this.request();
     }
 
     addCamera(canvas) {
@@ -102,9 +120,12 @@
       if (this.ground)
         bar.append(navvy.choice('Colour of the ground', [[1, 'Cut and fill'], [0, 'Soil']], 1,
           value => { this.ground.byChange = Boolean(value); this.request(); }));
-      if (this.movers && this.movers.perMetre > 0)
+      if (this.movers && (this.movers.perMetre > 0 || this.run.live))
         bar.append(navvy.choice('Force arrows', [[1, 'Forces'], [0, 'No forces']], 1,
           value => { this.movers.showForces = Boolean(value); this.request(); }));
+      if (this.movers && this.movers.particles.geometry.attributes.position.count > 0)
+        bar.append(navvy.choice('Loose particles', [[1, 'Particles'], [0, 'No particles']], 1,
+          value => { this.movers.particles.visible = Boolean(value); this.request(); }));
       button('Reset view', () => this.home());
       button('From above', () => this.above());
       return bar;
@@ -122,8 +143,8 @@
         ` Force arrows: 1 m is ${navvy.number(this.movers.perMetre / 1000)} kN.` : '';
       const missing = this.movers ? '' :
         ' The run has no recorded frames, so no machines are shown.';
-      return el('p', {class: 'muted'}, 'Drag to turn, right button to move, click and wheel to ' +
-        'zoom. Ground red where cut, blue where filled.' + forces + missing);
+      this.text.textContent = 'Drag to turn, right button to move, click and wheel to zoom. ' +
+        'Ground red where cut, blue where filled.' + forces + missing;
     }
 
     draw() {

@@ -32,7 +32,6 @@
       this.xs = navvy.unevenIndices(nx, region.x0, region.x1);
       this.ys = navvy.unevenIndices(ny, region.y0, region.y1);
       this.byChange = true;
-      this.limit = navvy.niceAbove(Math.max(0.05, run.ground.largestChange));
       const count = this.xs.length * this.ys.length;
       const geometry = this.geometry = new THREE.BufferGeometry();
       for (const name of ['position', 'normal', 'color'])
@@ -74,7 +73,7 @@
     updateSides() {
       const position = this.geometry.attributes.position.array;
       const side = this.sides.geometry.attributes.position;
-      if (this.floor === undefined) {
+      if (this.floor === undefined || this.run.live) {
         let low = Infinity;
         for (let at = 2; at < position.length; at += 3) low = Math.min(low, position[at]);
         this.floor = low - Math.max(0.5, 1.2 * this.run.ground.largestChange);
@@ -120,6 +119,7 @@
 
     // Takes heights and colours from the present frame of the ground.
     update() {
+      this.limit = navvy.niceAbove(Math.max(0.05, this.run.ground.largestChange));
       const {ground, grid} = this.run, position = this.geometry.attributes.position.array;
       let at = 2;
       for (const y of this.ys)

@@ -76,21 +76,28 @@
     }
 
     makeForces() {
-      const {frames, raw} = this.run, count = (raw.forces || []).length;
-      let most = 0;
-      for (let i = 0; i + 5 < frames.forces.length; i += 6)
-        most = Math.max(most, Math.hypot(frames.forces[i + 3], frames.forces[i + 4],
-                                         frames.forces[i + 5]));
-      this.perMetre = most > 0 ? navvy.niceAbove(most / kLongestArrow) : 0;
+      const count = (this.run.raw.forces || []).length;
+      this.perMetre = 0;
+      this.fitForces();
       this.forces = [];
       for (let i = 0; i < count; ++i)
         this.forces.push(this.add(new THREE.ArrowHelper(
           new THREE.Vector3(...kAlong), new THREE.Vector3(), 1, 0xd01c5b)));
     }
 
+    // Makes arrows short enough for the largest force so far. Returns true if their scale changed.
+    fitForces() {
+      const {forces} = this.run.frames, before = this.perMetre;
+      let most = 0;
+      for (let i = 0; i + 5 < forces.length; i += 6)
+        most = Math.max(most, Math.hypot(forces[i + 3], forces[i + 4], forces[i + 5]));
+      if (most > 0) this.perMetre = Math.max(before, navvy.niceAbove(most / kLongestArrow));
+      return this.perMetre !== before;
+    }
+
     makeParticles() {
       const {frames, grid, raw} = this.run, offsets = frames.particleOffsets;
-      let most = 0;
+      let most = frames.mostParticles || 0;
       for (let i = 0; i + 1 < offsets.length; ++i)
         most = Math.max(most, offsets[i + 1] - offsets[i]);
       const geometry = new THREE.BufferGeometry();
