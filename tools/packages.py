@@ -28,6 +28,8 @@ BASE = " ".join(
         "libzip-dev zlib1g-dev",
         # pages of runs
         "libjs-three libjs-dygraphs",
+        # live pages of runs
+        "libcpp-httplib-dev",
         # paths of go_to
         "libompl-dev",
         # tests, tables of docs/validation.md

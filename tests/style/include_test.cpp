@@ -103,6 +103,7 @@ const std::vector<Library>& libraries() {
       {"OMPL", {"ompl/"}, {"src/planner/ompl"}},
       {"libzip", {"zip.h"}, {"src/formats"}},
       {"zlib", {"zlib.h"}, {"src/report"}},
+      {"cpp-httplib", {"httplib.h"}, {"src/link/http"}},
       {"nlohmann-json",
        {"nlohmann/"},
        {"src/formats", "src/record", "src/report", "src/cli", "src/link"}},
