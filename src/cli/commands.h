@@ -34,6 +34,8 @@ void add_score(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 /// Adds `navvy report`, which makes the page of a run, or of two.
 void add_report(CLI::App& app, Action& action);
+/// Adds `navvy view`, which serves the page of a run to browsers.
+void add_view(CLI::App& app, Action& action);
 /// Adds `navvy devices`, which lists the OpenCL devices.
 void add_devices(CLI::App& app, Action& action);
 /// Adds `navvy soils`, which lists the shipped soils, or the values of one soil.

@@ -157,6 +157,7 @@ int run(int argc, char** argv) {
   cli::add_score(app, action);
   cli::add_compare(app, action);
   cli::add_report(app, action);
+  cli::add_view(app, action);
   cli::add_import(app, action);
   cli::add_map(app, action);
   cli::add_particles(app, action);

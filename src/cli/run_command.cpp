@@ -19,6 +19,7 @@
 #include "core/printable.h"
 #include "core/stopwatch.h"
 #include "link/control_stdio.h"
+#include "link/live_view.h"
 #include "link/published_map.h"
 #include "link/sensor_publisher.h"
 #include "record/particle_recorder.h"
@@ -39,6 +40,8 @@ struct RunOptions {
   link::PublishOptions publish;
   // Address at which readings of sensors are published; empty if they are not.
   std::string publish_sensors;
+  // Port of the live page; no value: there is none.
+  std::optional<int> view;
   bool quiet = false;
   bool no_report = false;
 };
@@ -82,21 +85,36 @@ class ProgramObserver final : public run::RunObserver {
     sensors_.emplace(world, address);
     log_info("readings of sensors on port " + std::to_string(sensors_->port()));
   }
+  void view(run::Simulation& simulation, int port, bool controlled) {
+    view_.emplace(simulation, port,
+                  controlled ? "belong to the controller (--control) in this run" : "");
+    // Standard output belongs to the controller where there is one.
+    std::FILE* out = controlled ? stderr : stdout;
+    std::fprintf(out, "view: %s\n", view_->address().c_str());
+    std::fflush(out);
+  }
   void show(const run::RunProgress& progress) { line_.show(progress); }
+  /// Carries out what pages ask for, and waits while they pause the run.
+  void before_step() {
+    if (view_) view_->before_step(run::StopSignals::asked);
+  }
 
   void after_step() override {
     if (map_) map_->observe();
     if (sensors_) sensors_->publish();
+    if (view_) view_->after_step();
   }
   void restart() override {
     if (map_) map_->restart();
     if (sensors_) sensors_->restart();
+    if (view_) view_->restart();
   }
   void closing() override {
     line_.end();
     signals_.obeyed();
   }
   void finish() override {
+    if (view_) view_->finish();
     if (sensors_) sensors_->finish();
     if (map_) map_->finish();
   }
@@ -112,6 +130,7 @@ class ProgramObserver final : public run::RunObserver {
   run::StopSignals signals_;
   std::optional<link::PublishedMap> map_;
   std::optional<link::SensorPublisher> sensors_;
+  std::optional<link::LiveView> view_;
 };
 
 /// Returns the folder of the results. It is named by the scene, not by its file: a scene read from
@@ -143,7 +162,10 @@ run::RunEnd drive(const RunOptions& options, run::Simulation& simulation,
     return run::StopSignals::asked() ? run::StopSignals::name() : control ? control->gone() : "";
   };
   hooks.progress = [&](const run::RunProgress& progress) { program.show(progress); };
-  if (control) hooks.before_step = [&] { return control->exchange(); };
+  hooks.before_step = [&] {
+    program.before_step();
+    return !control || control->exchange();
+  };
   return simulation.run_to_end(hooks);
 }
 
@@ -247,6 +269,7 @@ int run_scene(RunOptions options) {
   link::require_publishable(options.publish);
   if (!options.publish_sensors.empty())
     link::SensorPublisher::require_address(options.publish_sensors);
+  if (options.view) link::LiveView::require_port(*options.view);
   scene::Scene scene = load(options, wanted.scene_text);
   if (wanted.folder.empty()) wanted.folder = default_out(scene);
   wanted.device = options.scene.device;
@@ -260,6 +283,7 @@ int run_scene(RunOptions options) {
     if (!options.publish.place.empty()) program.publish(options.publish, simulation.session());
     if (!options.publish_sensors.empty())
       program.publish_sensors(options.publish_sensors, simulation.world());
+    if (options.view) program.view(simulation, *options.view, !options.control.empty());
   } catch (const std::exception& error) {
     // The place was free when it was checked, but may be taken by now.
     simulation.fail(error.what());
@@ -352,6 +376,11 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   command->add_option("--publish-sensors", options->publish_sensors,
                       "send each reading of the sensors to other processes: tcp:PORT (on "
                       "127.0.0.1) or tcp:HOST:PORT");
+  command
+      ->add_option("--view", options->view,
+                   "show the run live in browsers of this machine, on this port of 127.0.0.1 (0: "
+                   "any free one); prints the address. Pages can pause, step and command the run")
+      ->check(CLI::Range(0, 65535));
   command->add_option("--watch", options->simulation.watch,
                       "MACHINE/LINK: add pose, velocity and angular velocity of this link to the "
                       "outputs; repeatable");
