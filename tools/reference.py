@@ -23,6 +23,8 @@ COMMANDS = [
     "check",
     "score",
     "compare",
+    "report",
+    "view",
     "import",
     "show",
     "map",

@@ -17,6 +17,8 @@ using nlohmann::json;
 constexpr const char* kOption = "--view";
 /// Interval at which a waiting run looks for signals and new pages [s].
 constexpr double kGlance = 0.05;
+/// Longest time that the end of a run waits for slow pages [s].
+constexpr double kGoodbye = 2;
 /// A run that is behind its pace by more [s] does not catch up.
 constexpr double kMostBehind = 0.2;
 
@@ -180,6 +182,8 @@ void LiveView::finish() {
   const std::string folder = simulation_.results_folder();
   feed_->close("The run has ended." +
                (folder.empty() ? std::string() : " Its results are in " + folder + "."));
+  // Each page gets the last frame and the end before its stream is cut.
+  feed_->wait_until_left(kGoodbye);
   server_.close();
 }
 

@@ -67,6 +67,12 @@ std::optional<std::string> ViewFeed::end() const {
   return end_;
 }
 
+void ViewFeed::wait_until_left(double patience) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, std::chrono::duration<double>(patience),
+                    [&] { return subscribers_ == 0; });
+}
+
 std::shared_ptr<void> ViewFeed::subscribe() {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++subscribers_;
@@ -74,6 +80,7 @@ std::shared_ptr<void> ViewFeed::subscribe() {
   return {this, [](ViewFeed* feed) {
             const std::lock_guard<std::mutex> leaving(feed->mutex_);
             --feed->subscribers_;
+            feed->changed_.notify_all();
           }};
 }
 

@@ -39,6 +39,9 @@ class ViewFeed {
   /// Returns the text given to `close`; nothing before.
   std::optional<std::string> end() const;
 
+  /// Waits at most `patience` [s] until there are no subscribers.
+  void wait_until_left(double patience);
+
   /// Counts a subscriber as long as the returned object lives.
   std::shared_ptr<void> subscribe();
   /// Returns the number of present subscribers.

@@ -17,7 +17,7 @@ struct ViewFile {
   std::string type, bytes;
 };
 
-/// What a ViewServer serves. The functions are called from several threads at the same time.
+/// Content of a ViewServer. The functions are called from several threads at the same time.
 struct ViewContent {
   /// Returns the page.
   std::function<std::string()> page;
