@@ -270,8 +270,10 @@ TEST(Simulation, RecordsParticlesAtARateWithAnIndex) {
   options.folder = folder / "out";
   options.particles = {10, "vtu"};
   Simulation simulation(bucket_scene(10), options);
-  const int tenth = static_cast<int>(std::round(0.1 / simulation.world().dt()));
-  simulation.step(12 * tenth);
+  const auto steps = [&](double time) {
+    return static_cast<int>(std::round(time / simulation.world().dt()));
+  };
+  simulation.step(steps(1.2));
   const std::string last = folder / "out/particles/particles_000012.vtu";
   ASSERT_TRUE(std::filesystem::exists(last));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/particles/particles_000013.vtu"));
@@ -281,7 +283,7 @@ TEST(Simulation, RecordsParticlesAtARateWithAnIndex) {
   EXPECT_EQ(navvy::test::text_of(last), navvy::test::text_of(folder / "now.vtu"));
   // After a reset the files have another name, and those of the first time remain.
   simulation.reset();
-  simulation.step(tenth);
+  simulation.step(steps(0.1));
   simulation.finish();
   EXPECT_EQ(navvy::test::text_of(folder / "out/particles/particles_2_000001.vtu"),
             navvy::test::text_of(folder / "out/particles/particles_000001.vtu"));
