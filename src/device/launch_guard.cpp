@@ -16,8 +16,8 @@ bool LaunchGuard::needed_by(const std::string& version) {
 
 void LaunchGuard::add(cl_command_queue queue) {
   const std::unique_lock<std::shared_mutex> alone(mutex_);
-  finish_others(queue);
   queues_.insert(queue);
+  finish_all();
 }
 
 void LaunchGuard::remove(cl_command_queue queue) {
@@ -39,10 +39,9 @@ std::size_t LaunchGuard::width_of(const std::size_t* global) {
   return std::max({global[0], global[1], global[2]});
 }
 
-void LaunchGuard::finish_others(cl_command_queue queue) const {
-  if (!needed_) return;
-  for (cl_command_queue one : queues_)
-    if (one != queue) clFinish(one);
+void LaunchGuard::finish_all() const {
+  if (!needed_ || queues_.size() < 2) return;
+  for (cl_command_queue one : queues_) clFinish(one);
 }
 
 }  // namespace navvy::device

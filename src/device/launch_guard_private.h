@@ -21,10 +21,11 @@ namespace navvy::device {
 /// would abort.
 ///
 /// PoCL loads a kernel again when it is launched over more work-items than ever before, and on
-/// return takes the newest copy for the one that was running. When two queues run two copies of one
-/// kernel, the count of users of one of them falls below zero: "pocl_release_dlhandle_cache:
-/// Assertion `found->ref_count > 0' failed". A launch over more work-items than all before it
-/// therefore waits until the other queues are empty, and they wait for it. Thread-safe.
+/// return takes the newest copy for the one that was running. When two copies of one kernel are in
+/// use, the count of users of one of them falls below zero: "pocl_release_dlhandle_cache: Assertion
+/// `found->ref_count > 0' failed". A launch over more work-items than all before it therefore waits
+/// until all queues are empty, its own too, as a thread of another queue may still run what it
+/// holds, and the others wait for it. Thread-safe.
 class LaunchGuard {
  public:
   /// Largest number of work-items along one axis over which a kernel was launched, by the size of
@@ -60,7 +61,7 @@ class LaunchGuard {
       if (local != nullptr && known != widest.end() && width <= known->second) return enqueue();
     }
     const std::unique_lock<std::shared_mutex> alone(mutex_);
-    finish_others(queue);
+    finish_all();
     const cl_int code = enqueue();
     if (code != CL_SUCCESS) return code;
     if (queues_.size() > 1) clFinish(queue);
@@ -72,8 +73,8 @@ class LaunchGuard {
  private:
   static std::array<std::size_t, 3> key_of(const std::size_t* local);
   static std::size_t width_of(const std::size_t* global);
-  // Waits until all queues but one are empty. Their owners report what fails.
-  void finish_others(cl_command_queue queue) const;
+  // Waits until all queues are empty, if there are several. Their owners report what fails.
+  void finish_all() const;
 
   const bool needed_;
   // Held together while a kernel is put into a queue, alone while a wider launch runs.
