@@ -47,7 +47,7 @@ struct Kernel::State {
   // True after the first launch on a driver.
   bool launched[kDrivers] = {};
   // Records of the launches on each driver; null before the first one.
-  LaunchGuard::Widest* widest[kDrivers] = {};
+  LaunchGuard::Record* records[kDrivers] = {};
 
   State() = default;
   State(const State&) = delete;
@@ -304,15 +304,19 @@ void Kernel::launch(const WorkSize& global, const std::size_t* local) {
   }
   launched = true;
   LaunchGuard& guard = device.shared->guard();
-  LaunchGuard::Widest*& widest = state_->widest[device.driver];
-  if (widest == nullptr) widest = &guard.record(state_->program->built(), state_->name);
+  LaunchGuard::Record*& record = state_->records[device.driver];
+  if (record == nullptr) record = &guard.record(state_->program->built(), state_->name);
   const LongWork work("the OpenCL driver was busy compiling or starting a kernel");
   // With fewer axes a driver may choose better work-groups.
   const cl_uint axes = global.n[2] > 1 ? 3 : global.n[1] > 1 ? 2 : 1;
-  const cl_int code = guard.launch(device.queue, *widest, local, global.n, [&] {
+  const auto enqueue = [&] {
     return clEnqueueNDRangeKernel(device.queue, kernel, axes, nullptr, global.n, local, 0, nullptr,
                                   device.profiling ? &event : nullptr);
-  });
+  };
+  // The driver with index 1 runs kernels in the caller's thread.
+  const cl_int code = device.driver == 1
+                          ? guard.launch_in_caller(device.queue, *record, enqueue)
+                          : guard.launch(device.queue, *record, local, global.n, enqueue);
   check(code, "clEnqueueNDRangeKernel", device, state_->name);
   if (event == nullptr) return;
   device.events.emplace_back(state_->name, event);

@@ -25,9 +25,9 @@ void LaunchGuard::remove(cl_command_queue queue) {
   queues_.erase(queue);
 }
 
-LaunchGuard::Widest& LaunchGuard::record(cl_program program, const std::string& kernel) {
+LaunchGuard::Record& LaunchGuard::record(cl_program program, const std::string& kernel) {
   const std::unique_lock<std::shared_mutex> alone(mutex_);
-  return widest_[{program, kernel}];
+  return records_[{program, kernel}];
 }
 
 std::array<std::size_t, 3> LaunchGuard::key_of(const std::size_t* local) {
@@ -40,7 +40,7 @@ std::size_t LaunchGuard::width_of(const std::size_t* global) {
 }
 
 void LaunchGuard::finish_all() const {
-  if (!needed_ || queues_.size() < 2) return;
+  if (!needed_ || queues_.size() <= kOfOneDevice) return;
   for (cl_command_queue one : queues_) clFinish(one);
 }
 

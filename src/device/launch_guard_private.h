@@ -20,17 +20,24 @@ namespace navvy::device {
 /// Lets the queues of a process launch kernels at the same time, except where PoCL before version 6
 /// would abort.
 ///
-/// PoCL loads a kernel again when it is launched over more work-items than ever before, and on
+/// PoCL loads a kernel again when it is launched over more work-items than its copies allow, and on
 /// return takes the newest copy for the one that was running. When two copies of one kernel are in
 /// use, the count of users of one of them falls below zero: "pocl_release_dlhandle_cache: Assertion
-/// `found->ref_count > 0' failed". A launch over more work-items than all before it therefore waits
-/// until all queues are empty, its own too, as a thread of another queue may still run what it
-/// holds, and the others wait for it. Thread-safe.
+/// `found->ref_count > 0' failed". Therefore
+/// - with worker threads, a launch over more work-items than all before it waits until all queues
+///   are empty, its own too, and the others wait for it. These copies stay loaded for ever;
+/// - in the caller's thread, a kernel runs once at a time. These copies are unloaded when there are
+///   many, so that any launch may load one.
+/// Thread-safe.
 class LaunchGuard {
  public:
-  /// Largest number of work-items along one axis over which a kernel was launched, by the size of
-  /// its work-groups.
-  using Widest = std::map<std::array<std::size_t, 3>, std::size_t>;
+  /// What is known of the launches of one kernel.
+  struct Record {
+    /// Largest number of work-items along one axis so far, by the size of the work-groups.
+    std::map<std::array<std::size_t, 3>, std::size_t> widest;
+    /// Held while the kernel runs in a caller's thread.
+    std::mutex running;
+  };
 
   /// Guards launches if `needed` is true. Otherwise does nothing.
   explicit LaunchGuard(bool needed) : needed_(needed) {}
@@ -43,44 +50,59 @@ class LaunchGuard {
   /// Removes a queue, which must be empty.
   void remove(cl_command_queue queue);
   /// Returns the record of a kernel of a program; valid as long as the guard.
-  Widest& record(cl_program program, const std::string& kernel);
+  Record& record(cl_program program, const std::string& kernel);
 
+  /// Calls `enqueue`, which launches a kernel into `queue` of the driver that runs kernels in the
+  /// caller's thread, and returns an OpenCL code; returns that code.
+  template <class Enqueue>
+  cl_int launch_in_caller(cl_command_queue queue, Record& record, const Enqueue& enqueue) {
+    if (!needed_) return enqueue();
+    const std::shared_lock<std::shared_mutex> together(mutex_);
+    const std::lock_guard<std::mutex> once(record.running);
+    const cl_int code = enqueue();
+    // Another thread may run what this queue holds: PoCL has one list of commands for all queues.
+    if (code == CL_SUCCESS && queues_.size() > kOfOneDevice) clFinish(queue);
+    return code;
+  }
   /// Calls `enqueue`, which launches a kernel into `queue` and returns an OpenCL code, and returns
   /// that code. `local` is the size of a work-group, null if the driver chooses it; `global` is the
   /// number of work-items along each axis.
   template <class Enqueue>
-  cl_int launch(cl_command_queue queue, Widest& widest, const std::size_t* local,
+  cl_int launch(cl_command_queue queue, Record& record, const std::size_t* local,
                 const std::size_t* global, const Enqueue& enqueue) {
     if (!needed_) return enqueue();
     const std::array<std::size_t, 3> key = key_of(local);
     const std::size_t width = width_of(global);
     {
       const std::shared_lock<std::shared_mutex> together(mutex_);
-      const auto known = widest.find(key);
+      const auto known = record.widest.find(key);
       // The groups that a driver chooses are unknown.
-      if (local != nullptr && known != widest.end() && width <= known->second) return enqueue();
+      if (local != nullptr && known != record.widest.end() && width <= known->second)
+        return enqueue();
     }
     const std::unique_lock<std::shared_mutex> alone(mutex_);
     finish_all();
     const cl_int code = enqueue();
     if (code != CL_SUCCESS) return code;
-    if (queues_.size() > 1) clFinish(queue);
-    std::size_t& most = widest[key];
+    if (queues_.size() > kOfOneDevice) clFinish(queue);
+    std::size_t& most = record.widest[key];
     if (width > most) most = width;
     return code;
   }
 
  private:
+  // Number of queues of one device with both drivers.
+  static constexpr std::size_t kOfOneDevice = 2;
   static std::array<std::size_t, 3> key_of(const std::size_t* local);
   static std::size_t width_of(const std::size_t* global);
-  // Waits until all queues are empty, if there are several. Their owners report what fails.
+  // Waits until all queues are empty, if there are several devices. Their owners report what fails.
   void finish_all() const;
 
   const bool needed_;
   // Held together while a kernel is put into a queue, alone while a wider launch runs.
   std::shared_mutex mutex_;
   std::set<cl_command_queue> queues_;
-  std::map<std::pair<cl_program, std::string>, Widest> widest_;
+  std::map<std::pair<cl_program, std::string>, Record> records_;
 };
 
 }  // namespace navvy::device

@@ -24,7 +24,9 @@ class TileFace {
     const auto i = static_cast<std::size_t>(y * kTileSide);
     if (tile_ == nullptr || other.tile_ == nullptr) return false;
     const auto equal = [&](const auto& a, const auto& b) {
-      return std::memcmp(&a[i], &b[i], kTileSide * sizeof a[0]) == 0;
+      // Bit for bit, as a not-a-number that stays is no change.
+      const void *first = &a[i], *second = &b[i];
+      return std::memcmp(first, second, kTileSide * sizeof a[0]) == 0;
     };
     return equal(tile_->height, other.tile_->height) && equal(tile_->soil, other.tile_->soil) &&
            equal(tile_->specific_volume, other.tile_->specific_volume) &&

@@ -114,6 +114,8 @@ class Renderer::Impl {
  private:
   void place(const scene::Frame& frame);
   void cast_shadows(const scene::Frame& frame, const Lighting& lighting);
+  /// Sets Coin's camera and lights.
+  void set_view(const View& view, const scene::FrameCamera& camera, const Lighting& lighting);
   void draw_machines(const View& view, const scene::FrameCamera& camera, const Lighting& lighting);
   void draw_overlay(const View& view, const scene::FrameOverlay& overlay);
   SoDirectionalLight* add_light();
@@ -211,6 +213,33 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
   shadows_.update(placed_, falling, static_cast<float>(frame.particles.radius), lighting);
 }
 
+void Renderer::Impl::set_view(const View& view, const scene::FrameCamera& camera,
+                              const Lighting& lighting) {
+  const Eigen::Quaternionf q(camera.X_WC.linear().cast<float>());
+  camera_->position = SbVec3f(view.eye.x(), view.eye.y(), view.eye.z());
+  camera_->orientation = SbRotation(q.x(), q.y(), q.z(), q.w());
+  camera_->aspectRatio = static_cast<float>(view.width) / static_cast<float>(view.height);
+  camera_->heightAngle = static_cast<float>(2 * std::atan(view.tan_y));
+  camera_->nearDistance = static_cast<float>(View::kNear);
+  camera_->farDistance = static_cast<float>(View::kFar);
+  // Three lights and an ambient part imitate the sky and the light from the ground, so that bodies
+  // drawn by Coin match the ground lit by shading.h.
+  environment_->ambientIntensity = 1.0f;
+  environment_->ambientColor = to_coin(Vec3f(0.62f * (lighting.sky + lighting.ground)));
+  environment_->fogType = SoEnvironment::HAZE;
+  environment_->fogColor = to_coin(lighting.haze);
+
+  environment_->fogVisibility = 2 * GlDraw::kFogEnd;  // Coin's haze starts at the camera
+  sun_->direction = SbVec3f(-lighting.to_sun.x(), -lighting.to_sun.y(), -lighting.to_sun.z());
+  sun_->color = to_coin(lighting.sun);
+  sky_->direction = SbVec3f(0.25f * lighting.to_sun.x(), 0.25f * lighting.to_sun.y(), -1);
+  sky_->color = to_coin(lighting.sky);
+  sky_->intensity = 0.55f;
+  bounce_->direction = SbVec3f(lighting.to_sun.x(), lighting.to_sun.y(), 0.35f);
+  bounce_->color = to_coin(Vec3f(lighting.ground + 0.3f * lighting.sky));
+  bounce_->intensity = 1.0f;
+}
+
 void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& camera,
                                    const Lighting& lighting) {
   machines_->removeAllChildren();
@@ -239,30 +268,7 @@ void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& c
     for (const std::size_t b : group.bodies) together->addChild(node_of(placed_[b]));
     machines_->addChild(together);
   }
-  const Eigen::Quaternionf q(camera.X_WC.linear().cast<float>());
-  camera_->position = SbVec3f(view.eye.x(), view.eye.y(), view.eye.z());
-  camera_->orientation = SbRotation(q.x(), q.y(), q.z(), q.w());
-  camera_->aspectRatio = static_cast<float>(view.width) / static_cast<float>(view.height);
-  camera_->heightAngle = static_cast<float>(2 * std::atan(view.tan_y));
-  camera_->nearDistance = static_cast<float>(View::kNear);
-  camera_->farDistance = static_cast<float>(View::kFar);
-  // Three lights and an ambient part imitate the sky and the light from the ground, so that bodies
-  // drawn by Coin match the ground lit by shading.h.
-  environment_->ambientIntensity = 1.0f;
-  environment_->ambientColor = to_coin(Vec3f(0.62f * (lighting.sky + lighting.ground)));
-  environment_->fogType = SoEnvironment::HAZE;
-  environment_->fogColor = to_coin(lighting.haze);
-
-  environment_->fogVisibility = 2 * GlDraw::kFogEnd;  // Coin's haze starts at the camera
-  sun_->direction = SbVec3f(-lighting.to_sun.x(), -lighting.to_sun.y(), -lighting.to_sun.z());
-  sun_->color = to_coin(lighting.sun);
-  sky_->direction = SbVec3f(0.25f * lighting.to_sun.x(), 0.25f * lighting.to_sun.y(), -1);
-  sky_->color = to_coin(lighting.sky);
-  sky_->intensity = 0.55f;
-  bounce_->direction = SbVec3f(lighting.to_sun.x(), lighting.to_sun.y(), 0.35f);
-  bounce_->color = to_coin(Vec3f(lighting.ground + 0.3f * lighting.sky));
-  bounce_->intensity = 1.0f;
-
+  set_view(view, camera, lighting);
   SoGLRenderAction action(
       SbViewportRegion(static_cast<short>(view.width), static_cast<short>(view.height)));
   action.setCacheContext(cache_context_);

@@ -110,11 +110,13 @@ std::vector<ParticleArray> ParticleTable::arrays() const {
 std::vector<ParticleArray> ParticleTable::arrays(const std::vector<std::string>& names) const {
   const std::vector<ParticleArray> all = arrays();
   std::vector<ParticleArray> out;
+  out.reserve(names.size());
   for (const std::string& name : names) {
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&](const ParticleArray& one) { return one.name == name; });
     if (found == all.end()) {
       std::vector<std::string> known;
+      known.reserve(all.size());
       for (const ParticleArray& one : all) known.push_back(one.name);
       throw InputError(Fault{Fault::Severity::kError, "", 0, "particles", name,
                              "is not the name of a quantity of particles",

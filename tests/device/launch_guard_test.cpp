@@ -10,30 +10,41 @@
 namespace navvy::device {
 namespace {
 
-const char* kCount = R"(#include "common/portable.h"
-kernel void count(global int* sum, int n, int rounds) {
+/// Returns a program of so many kernels, count0 to count<n - 1>.
+std::string program_of(int kernels) {
+  std::string text = "#include \"common/portable.h\"\n";
+  for (int k = 0; k < kernels; ++k)
+    text += "kernel void count" + std::to_string(k) + R"((global int* sum, int n, int rounds) {
   const int i = get_global_id(0);
   int value = 0;
   for (int k = 0; k < rounds; ++k) value += (k ^ i) & 1;
   if (i < n) sum[i] = value;
 }
 )";
+  return text;
+}
 
-// PoCL before version 6 aborts the process if this goes wrong.
-TEST(LaunchGuard, ThreadsMayLaunchOneKernelOverMoreAndMoreWork) {
-  constexpr int kRounds = 2000, kMost = 64 * 400;
+/// Launches `kernels` kernels over more and more work-items in four threads, half of them in the
+/// caller's thread.
+void launch_in_threads(int kernels, int steps) {
+  constexpr int kRounds = 1000;
   std::vector<int> wrong(4, 0);
   std::vector<std::thread> threads;
   threads.reserve(wrong.size());
   for (std::size_t t = 0; t < wrong.size(); ++t)
     threads.emplace_back([&, t] {
       Device device;
-      // Half of the threads use the driver without worker threads, where there is one.
       device.run_in_caller(t % 2 == 1);
-      const KernelProgram program = KernelProgram::from_text(device, "count.cl", kCount);
-      Kernel count(program, "count");
-      Buffer<int> sum(device, kMost);
-      for (int groups = 1 + static_cast<int>(t); groups <= 400; groups += 4) {
+      const KernelProgram program =
+          KernelProgram::from_text(device, "count.cl", program_of(kernels));
+      std::vector<Kernel> counts;
+      for (int k = 0; k < kernels; ++k) counts.emplace_back(program, "count" + std::to_string(k));
+      Buffer<int> sum(device, static_cast<std::size_t>(64 * (4 * steps + 8)));
+      for (int step = 0; step < steps; ++step) {
+        const int groups = 1 + static_cast<int>(t) + 4 * step;
+        // Each thread has another order.
+        Kernel& count =
+            counts[static_cast<std::size_t>((step * (2 * static_cast<int>(t) + 1)) % kernels)];
         sum.fill(0);
         count.args(sum, 64 * groups, kRounds);
         // Small launches of this thread run beside the wider ones of the others.
@@ -46,6 +57,12 @@ TEST(LaunchGuard, ThreadsMayLaunchOneKernelOverMoreAndMoreWork) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(wrong, std::vector<int>(4, 0));
 }
+
+// PoCL before version 6 aborts the process if these go wrong.
+TEST(LaunchGuard, ThreadsMayLaunchOneKernelOverMoreAndMoreWork) { launch_in_threads(1, 100); }
+
+// PoCL keeps 128 copies of kernels.
+TEST(LaunchGuard, ThreadsMayLaunchMoreKernelsThanTheDriverKeeps) { launch_in_threads(8, 300); }
 
 }  // namespace
 }  // namespace navvy::device
