@@ -31,7 +31,7 @@ namespace navvy::device {
 /// Thread-safe.
 class LaunchGuard {
  public:
-  /// What is known of the launches of one kernel.
+  /// Launches of one kernel so far.
   struct Record {
     /// Largest number of work-items along one axis so far, by the size of the work-groups.
     std::map<std::array<std::size_t, 3>, std::size_t> widest;

@@ -50,6 +50,7 @@ TEST(RecordFile, ChoosesTheFormatThatItsHeaderNeeds) {
   // Names that are not ASCII need UTF-8, a header above 64 KiB a longer count.
   EXPECT_EQ(version({{"L\u00f6ffel", "<f4", {}}}), 3);
   std::vector<RecordField> many;
+  many.reserve(5000);
   for (int i = 0; i < 5000; ++i) many.push_back({"machine/joint_" + std::to_string(i), "<f4", {}});
   EXPECT_EQ(version(many), 2);
 }
