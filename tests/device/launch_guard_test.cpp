@@ -38,6 +38,7 @@ void launch_in_threads(int kernels, int steps) {
       const KernelProgram program =
           KernelProgram::from_text(device, "count.cl", program_of(kernels));
       std::vector<Kernel> counts;
+      counts.reserve(static_cast<std::size_t>(kernels));
       for (int k = 0; k < kernels; ++k) counts.emplace_back(program, "count" + std::to_string(k));
       Buffer<int> sum(device, static_cast<std::size_t>(64 * (4 * steps + 8)));
       for (int step = 0; step < steps; ++step) {

@@ -178,6 +178,7 @@ TEST(ViewServer, SaysThatAPortIsInUse) {
 TEST(ViewServer, ServesTenSubscribersAndForgetsKilledOnes) {
   Served one;
   std::vector<std::unique_ptr<Events>> readers;
+  readers.reserve(10);
   for (int i = 0; i < 10; ++i) readers.push_back(std::make_unique<Events>(one.at));
   one.feed->add({{"time_s", 1}}, tile(0, 0, 10));
   for (auto& reader : readers) EXPECT_EQ(reader->next().at("time_s"), 1);
