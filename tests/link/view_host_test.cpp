@@ -50,7 +50,7 @@ std::vector<std::int16_t> tile(int x, int y, int number) {
 std::vector<std::int16_t> tiles_of(const json& row) {
   const std::string bytes = base64_bytes(row.at("tiles").get<std::string>()).value_or("");
   std::vector<std::int16_t> out(bytes.size() / 2);
-  std::memcpy(out.data(), bytes.data(), bytes.size());
+  if (!out.empty()) std::memcpy(out.data(), bytes.data(), 2 * out.size());
   return out;
 }
 
