@@ -82,10 +82,6 @@ std::vector<soil::PlacedTool> Coupling::containers() const {
 
 std::function<bool(const Vec3&)> Coupling::holding() const { return solver_.holding(containers()); }
 
-std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particles) const {
-  return solver_.held(particles, containers());
-}
-
 // Machines move first; the soil then answers over the same interval.
 void Coupling::step(double dt) {
   // Soil acts over the interval that starts at these poses.

@@ -83,8 +83,6 @@ class Coupling {
   /// Returns a function that returns true for a point in W [m] if a bucket or a bed, at its present
   /// pose, holds soil there. It must not outlive this object.
   std::function<bool(const Vec3&)> holding() const;
-  /// Returns one value per particle: 1 if a bucket or a bed contains the particle, else 0.
-  std::vector<std::uint8_t> held(std::span<const soil::Particle> particles) const;
   /// Returns the engine that moves the machine with the index `m` in the scene.
   vehicle::PhysicsEngine& engine(int m) const {
     return *placed_[static_cast<std::size_t>(m)].engine;

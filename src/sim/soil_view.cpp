@@ -51,23 +51,6 @@ std::vector<ActiveParticle> SoilView::loose_soil() const {
   return out;
 }
 
-std::vector<SoilParticle> SoilView::particles() const {
-  std::vector<SoilParticle> out;
-  const double cell = parts_->ground.cell();
-  for (const soil::Particle& p : parts_->soil.particles()) {
-    SoilParticle one;
-    for (int a = 0; a < 3; ++a) {
-      const double in_cells = p.block[a] * soil::kBlockCells + static_cast<double>(p.x[a]);
-      one.p_W[a] = parts_->soil.grid_origin()[a] + in_cells * cell;
-      one.v_W[a] = static_cast<double>(p.v[a]);
-    }
-    one.mass = kilograms(p.mass);
-    one.soil = p.soil;
-    out.push_back(one);
-  }
-  return out;
-}
-
 std::vector<std::pair<std::string, double>> SoilView::stage_times() const {
   return parts_->soil.stage_times();
 }

@@ -33,9 +33,6 @@ class SoilView {
   /// Returns all active particles as masses above ground columns, in an order that is the same in
   /// every repetition of a run. Costs a pass over all particles.
   std::vector<ActiveParticle> loose_soil() const;
-  /// Returns all active particles with place and velocity, in the order of `loose_soil`. Costs a
-  /// pass over all particles.
-  std::vector<SoilParticle> particles() const;
   /// Returns pairs of stage name ("p2g", "grid", "exchange", ...) and wall time that the soil
   /// solver has spent in that stage so far [s].
   std::vector<std::pair<std::string, double>> stage_times() const;

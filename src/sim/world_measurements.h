@@ -68,18 +68,6 @@ struct ActiveParticle {
   std::int64_t mass = 0;
 };
 
-/// One active particle with its place and motion.
-struct SoilParticle {
-  /// Position in W [m].
-  Vec3 p_W = Vec3::Zero();
-  /// Velocity in axes of W [m/s].
-  Vec3 v_W = Vec3::Zero();
-  /// Mass [kg].
-  double mass = 0;
-  /// Index of the particle's soil in the scene's list of soils.
-  std::uint16_t soil = 0;
-};
-
 /// Wall time that the steps of a world have taken so far, by part [s].
 struct WallTimes {
   /// Wall time of machines, of active soil, and of ground columns [s].

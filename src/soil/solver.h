@@ -143,10 +143,6 @@ class Solver {
   /// Returns a function that returns true for a point in W [m] if one of `tools` holds soil there,
   /// by the same rule as `payload`. It must not outlive the solver.
   std::function<bool(const Vec3&)> holding(std::span<const PlacedTool> tools) const;
-  /// Returns one entry for each of `particles`: 1 if one of `tools` holds the particle, by the same
-  /// rule as `payload`, else 0.
-  std::vector<std::uint8_t> held(std::span<const Particle> particles,
-                                 std::span<const PlacedTool> tools) const;
 
   /// Counts the masses of all columns and particles; waits for the device.
   Ledger ledger() const;

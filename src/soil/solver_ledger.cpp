@@ -94,15 +94,6 @@ std::function<bool(const Vec3&)> Solver::holding(std::span<const PlacedTool> too
   };
 }
 
-std::vector<std::uint8_t> Solver::held(std::span<const Particle> particles,
-                                       std::span<const PlacedTool> tools) const {
-  const std::function<bool(const Vec3&)> holds = holding(tools);
-  std::vector<std::uint8_t> out;
-  out.reserve(particles.size());
-  for (const Particle& p : particles) out.push_back(holds(state_->frame.position(p)) ? 1 : 0);
-  return out;
-}
-
 const Vec3& Solver::grid_origin() const { return state_->frame.origin; }
 const PlanGrid& Solver::grid() const { return state_->frame.grid; }
 const SolverStats& Solver::stats() const { return state_->stats; }

@@ -31,14 +31,15 @@ TEST(ReadParticles, HaveTheValuesOfTheSolverAndTheMassOfTheLedger) {
   EXPECT_EQ(std::accumulate(table.mass.begin(), table.mass.end(), 0.0),
             kilograms(world.soil().mass_ledger().particles[0]));
   const std::vector<soil::Particle> all = parts(world).soil.particles();
-  const std::vector<SoilParticle> places = world.soil().particles();
   const scene::Soil& soil = world.description().soils[0];
   const double bulk = soil.young_modulus / (3 * (1 - 2 * soil.poisson));
   std::size_t pressed = 0, open = 0;
   for (std::size_t i = 0; i < table.count(); ++i) {
     const soil::Particle& p = all[i];
     for (std::size_t a = 0; a < 3; ++a) {
-      ASSERT_EQ(table.position[3 * i + a], places[i].p_W[static_cast<int>(a)]);
+      const double in_cells = p.block[a] * soil::kBlockCells + static_cast<double>(p.x[a]);
+      ASSERT_EQ(table.position[3 * i + a], parts(world).soil.grid_origin()[static_cast<int>(a)] +
+                                               in_cells * world.ground().cell());
       ASSERT_EQ(table.velocity[3 * i + a], p.v[a]);
       for (std::size_t b = 0; b < 3; ++b)
         ASSERT_EQ(table.velocity_gradient[9 * i + 3 * a + b], p.c[3 * a + b]);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -28,7 +29,6 @@ struct PlainSoil {
 PlainSoil plain_soil(const World& world) {
   const heightfield::TerrainView columns = world.ground().view(world.time());
   const std::vector<soil::Particle> particles = parts(world).soil.particles();
-  const std::vector<std::uint8_t> held = parts(world).coupling.held(particles);
   const soil::PlanGrid& grid = parts(world).soil.grid();
   const auto place = [&](const soil::Particle& p) {
     Vec3 out = parts(world).soil.grid_origin();
@@ -37,6 +37,10 @@ PlainSoil plain_soil(const World& world) {
           world.ground().cell() * (soil::kBlockCells * p.block[a] + static_cast<double>(p.x[a]));
     return out;
   };
+  const std::function<bool(const Vec3&)> holds = parts(world).coupling.holding();
+  std::vector<std::uint8_t> held;
+  held.reserve(particles.size());
+  for (const soil::Particle& p : particles) held.push_back(holds(place(p)) ? 1 : 0);
   const auto volume = [&](const soil::Particle& p) {
     return kilograms(p.mass) * static_cast<double>(p.j0) /
            world.description().soils[p.soil].bank_density;
