@@ -5,23 +5,18 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "control/step_kinds.h"
 #include "folder.h"
+#include "machine_pictures.h"
 #include "paths.h"
 #include "process.h"
 #include "run/simulation.h"
 #include "scene_io/loader.h"
-#include "sim/camera_framing.h"
-#include "sim/frame_builder.h"
-#include "sim/occupied_areas.h"
 #include "text_of.h"
 
 namespace navvy {
@@ -57,84 +52,20 @@ TEST_P(ShippedScene, RunsToItsStatedEnd) {
   EXPECT_EQ(summary.at("mass_ledger").at("error_units"), 0);
 }
 
-/// Watches how much of the pictures machines take during a run.
-class Coverage {
- public:
-  explicit Coverage(const sim::World& world) : world_(world), framing_(world), builder_(world) {}
-
-  /// Compares all machines with all cameras that are fixed or follow a machine.
-  void observe() {
-    const scene::Scene& scene = world_.description();
-    for (const scene::MachineInWorld& placed : scene.machines) {
-      if (!sim::is_machine(placed)) continue;
-      scene::Camera around;
-      around.frame = scene::Camera::Framed::kMachine;
-      around.machine = placed.name;
-      const std::vector<Vec3> points = framing_.points(around);
-      bool seen = false;
-      double share = 0;
-      for (const scene::Camera& camera : scene.cameras) {
-        if (camera.kind == scene::Camera::Kind::kOnLink || camera.name == kUnused) continue;
-        const Vec2 range = columns(builder_.camera(camera), points);
-        if (!(range.x() < range.y())) continue;
-        seen = true;
-        share = std::max(share, range.y() - range.x());
-      }
-      if (!seen)
-        ADD_FAILURE() << placed.name << " leaves all pictures at " << world_.time() << " s";
-      least_[placed.name] = std::min(least_.try_emplace(placed.name, 1).first->second, share);
-    }
-  }
-  /// Returns for each machine the least share of the width of the camera's picture that shows it
-  /// largest.
-  const std::map<std::string, double>& least() const { return least_; }
-
-  /// Name of a camera for the scene that frames machines, so that their sizes are read.
-  static constexpr const char* kUnused = "unused";
-
- private:
-  /// Returns the shares of the width at which points begin and end; nothing if one is outside.
-  static Vec2 columns(const scene::FrameCamera& camera, const std::vector<Vec3>& points) {
-    const double scale = 0.5 / std::tan(0.5 * camera.fov),
-                 tall = 1.0 * camera.height / camera.width;
-    Vec2 range(1, 0);
-    for (const Vec3& p : points) {
-      const Vec3 c = camera.X_WC.inverse() * p;
-      const double x = 0.5 + scale * c.x() / -c.z(), y = 0.5 * tall + scale * c.y() / -c.z();
-      if (c.z() > -0.1 || x < 0 || x > 1 || y < 0 || y > tall) return {1, 0};
-      range = {std::min(range.x(), x), std::max(range.y(), x)};
-    }
-    return range;
-  }
-
-  const sim::World& world_;
-  sim::CameraFraming framing_;
-  sim::FrameBuilder builder_;
-  std::map<std::string, double> least_;
-};
-
 TEST_P(ShippedScene, ShowsEachMachineToItsEnd) {
-  scene::Scene scene =
-      scene_io::load_scene(source_dir() + "/scenarios/" + GetParam(), control::step_kinds());
-  scene::Camera unused;
-  unused.name = Coverage::kUnused;
-  unused.frame = scene::Camera::Framed::kMachine;
-  scene.cameras.push_back(unused);
-  run::Simulation simulation(std::move(scene));
-  Coverage coverage(simulation.world());
-  coverage.observe();
+  run::Simulation simulation(
+      scene_io::load_scene(source_dir() + "/scenarios/" + GetParam(), control::step_kinds()));
+  test::MachinePictures pictures(simulation.world());
+  const double share = GetParam().rfind("paper/", 0) == 0 ? 0.25 : 0.02;
+  pictures.expect_shown(share);
   double next = 1;
   run::LoopHooks hooks;
   hooks.progress = [&](const run::RunProgress& progress) {
     if (progress.time < next || HasFailure()) return;
     next += 1;
-    coverage.observe();
+    pictures.expect_shown(share);
   };
   simulation.run_to_end(hooks);
-  for (const auto& [machine, share] : coverage.least()) {
-    std::printf("%s: %.0f %% of the width\n", machine.c_str(), 100 * share);
-    if (GetParam().rfind("paper/", 0) == 0) EXPECT_GE(share, 0.25) << machine;
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()),
