@@ -59,6 +59,7 @@ struct DesignArea {
 /// no design.
 struct Design {
   std::string file;   ///< path of a raster or LandXML file; empty: none
+  int file_line = 0;  ///< line in the scene file that names it; 0: none does
   RasterScale scale;  ///< cell size, heights and corner of a raster without its own georeference
   /// Surface read from a LandXML `file`; null for a raster or without a file.
   std::shared_ptr<const Tin> tin;

@@ -160,6 +160,7 @@ struct RasterScale {
 /// The site's ground at the start of a run, from which heightfield::Ground is built.
 struct StartGround {
   std::string file;              ///< path of a heightmap; empty: flat ground plus `features`
+  int file_line = 0;             ///< line in the scene file that names the heightmap; 0: none does
   RasterScale scale;             ///< scale and position of a heightmap without its own georeference
   bool has_at = false;           ///< true: the centre of the site in the map was given
   bool at_is_local = false;      ///< true: `at` is relative to the file's lower-left corner

@@ -61,6 +61,7 @@ struct Soil {
   /// Shear displacement at which soil below tyres and tracks has reached 63 % of its strength [m].
   double janosi_k = 0.02;
   float color[3] = {0.45f, 0.33f, 0.22f};  ///< linear red, green and blue, 0 to 1
+  bool moist = false;  ///< true: pictures show freshly dug faces darker, as they are still moist
 
   /// Passes the fields of <navvy:soil> to the visitor `f`. The ranges include every soil, even snow
   /// and lunar dust.
@@ -125,6 +126,10 @@ struct Soil {
     f("janosi_k_m", janosi_k, {1e-4, 1},
       "Shear displacement at which soil under tyres and tracks has 63 % of its strength.");
     f("color", Rgb{color}, "Linear red, green and blue.", kShown);
+    f("moist", moist,
+      "Whether the soil is moist below its surface: pictures then show freshly dug "
+      "faces darker.",
+      kShown);
   }
 };
 

@@ -45,6 +45,7 @@ scene::Design read_design(Element& element, Faults& faults) {
                  "remove one of them, or add one");
   if (design.file.empty()) return design;
   const Element& file = *element.FirstChildElement("file");
+  design.file_line = file.GetLineNum();
   const std::size_t before = faults.error_count();
   resolve_raster(file, design.file, faults);
   // Only plain files are opened: a pipe would wait for its writer for ever.

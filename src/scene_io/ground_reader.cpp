@@ -95,8 +95,10 @@ scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>&
   // A seed of its own keeps hills as they are when the seed of the scene changes.
   for (scene::GroundFeature& shape : ground.features)
     if (!shape.has_seed) shape.seed = seed;
-  if (const Element* file = element.FirstChildElement("file"))
+  if (const Element* file = element.FirstChildElement("file")) {
+    ground.file_line = file->GetLineNum();
     resolve_raster(*file, ground.file, faults);
+  }
   check_layers(element, ground.layers, faults);
   check_rectangles(element, ground, faults);
   check_map(element, ground, faults);

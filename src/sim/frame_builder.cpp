@@ -57,8 +57,7 @@ FrameBuilder::FrameBuilder(const World& world, const std::string& show)
   // Fill in constants once.
   for (const scene::Soil& soil : world.description().soils) {
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
-    // Soil without cohesion is dry: it does not darken where it is dug.
-    frame_.ground.soil_moist.push_back(soil.cohesion > 0 ? 1 : 0);
+    frame_.ground.soil_moist.push_back(soil.moist ? 1 : 0);
   }
   for (const scene::Overlay one : scene::overlays_of(show)) {
     if (one == scene::Overlay::kCutFill) frame_.ground.cut_fill = kFullChange;

@@ -341,8 +341,9 @@ TEST(PlainRasters, RefuseOtherFormatsWithWhatToInstall) {
   const std::string dir = folder();
   scene::Scene world = map_world(write_text(dir + "map.tif", "II*\n"), 1, Vec2(8, 4));
   world.file = "site.sdf";
+  world.ground.file_line = 7;
   expect_parts(message_of(world),
-               {"site.sdf: error: terrain/file: '" + dir + "map.tif'", "16-bit PNG", "NPY",
+               {"site.sdf:7: error: terrain/file: '" + dir + "map.tif'", "16-bit PNG", "NPY",
                 "ESRI ASCII", "gdal_translate -of AAIGrid", "libgdal-dev"});
 }
 

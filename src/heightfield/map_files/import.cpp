@@ -52,7 +52,8 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
 // Small maps are held; larger ones are read in windows, with bit-identical heights.
 TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held, int side,
                              MapReader reader) {
-  MapFile map({world.ground.file, "terrain", world.file, 0}, world.ground.scale, reader);
+  MapFile map({world.ground.file, "terrain", world.file, world.ground.file_line},
+              world.ground.scale, reader);
   setup.crs_wkt = map.crs_wkt;
   const Vec2 corner = place_site(map, world.ground, setup),
              size = setup.cell * Vec2(setup.nx, setup.ny);

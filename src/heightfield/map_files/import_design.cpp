@@ -61,7 +61,7 @@ DesignSurface import_design(const scene::Scene& scene, const scene::Design& desi
   const GroundSetup& setup = site.setup();
   scene::RasterScale scale = design.scale;
   if (!scale.has_corner) scale.corner = Vec2(setup.easting, setup.northing);
-  MapFile map({design.file, "navvy:design", scene.file, 0}, scale);
+  MapFile map({design.file, "navvy:design", scene.file, design.file_line}, scale);
   require_same_crs(map, setup);
   // Corner of the site in metres from that of the map.
   const TerrainReport& report = map.report;
