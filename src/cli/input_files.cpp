@@ -14,8 +14,8 @@ std::string scene_in(const std::string& folder, const std::string& command,
   std::error_code unreadable;
   if (std::filesystem::is_regular_file(file, unreadable)) return file;
   throw InputError(Fault{Fault::Severity::kError, "", 0, command, asked,
-                         "there is no scene.sdf in '" + folder + "'",
-                         "give a run's folder, or for a snapshot its scene with --scene FILE"});
+                         "there is no scene.sdf in '" + (folder.empty() ? "." : folder) + "'",
+                         "give a snapshot's scene with --scene FILE, or a folder of a run"});
 }
 
 void require_apart(const std::string& named, const std::vector<std::string>& outputs,

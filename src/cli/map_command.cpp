@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/input_files.h"
 #include "cli/scene_options.h"
 #include "cli/validators.h"
 #include "control/step_kinds.h"
@@ -27,6 +28,7 @@
 #include "planner/map_path_planner.h"
 #include "record/path_file.h"
 #include "scene_io/loader.h"
+#include "scene_io/ordered_program.h"
 #include "scene_io/shipped.h"
 #include "session/session.h"
 #include "sim/occupied_areas.h"
@@ -45,17 +47,6 @@ struct MapCommand {
 
 /// Source of a map, which decides what can be known.
 enum class From { kScene, kRun, kSnapshot };
-
-/// Refuses an output that would overwrite an input, whatever its name.
-void require_apart(const MapCommand& options, const formats::MapFormat& format,
-                   const std::vector<std::string>& reads) {
-  for (const std::string& to : formats::files_of(format, options.out))
-    for (const std::string& read : reads)
-      if (same_file(to, read))
-        throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", options.out,
-                               "would replace '" + read + "', which this map is made from",
-                               "name another file"});
-}
 
 /// Returns the files that a map of `scene` is made from, besides `others`.
 std::vector<std::string> reads_of(const scene::Scene& scene, std::vector<std::string> others) {
@@ -108,16 +99,6 @@ scene::Scene load(const std::string& file) {
   return scene_io::load_scene(file, control::step_kinds());
 }
 
-/// Returns the scene file in the folder of a run. @throws InputError when there is none.
-std::string scene_of(const std::filesystem::path& folder, const std::string& asked) {
-  const std::string file = (folder / "scene.sdf").string();
-  std::error_code unreadable;
-  if (std::filesystem::is_regular_file(file, unreadable)) return file;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "map", asked,
-                         "there is no scene.sdf in '" + folder.string() + "'",
-                         "give a run's folder, or for a snapshot its scene with --scene FILE"});
-}
-
 map::MapOptions map_options(const MapCommand& options, std::vector<map::MapLayer> layers,
                             const scene::Scene& scene, const heightfield::Terrain& site,
                             const heightfield::DesignSurface* design = nullptr) {
@@ -138,15 +119,18 @@ map::MapOptions map_options(const MapCommand& options, std::vector<map::MapLayer
 map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat& format,
                             const std::vector<map::MapLayer>& layers) {
   const std::string scene =
-      options.scene.empty()
-          ? scene_of(std::filesystem::path(options.from).parent_path(), options.from)
-          : scene_io::find_scene(options.scene);
+      options.scene.empty() ? scene_in(std::filesystem::path(options.from).parent_path().string(),
+                                       "map", options.from)
+                            : scene_io::find_scene(options.scene);
   const scene::Scene described = load(scene);
-  require_apart(options, format, reads_of(described, {options.from}));
+  require_apart(options.out, formats::files_of(format, options.out),
+                reads_of(described, {options.from}));
   // The session restores particles as a run would resume from them.
   device::Device device(options.device);
-  session::Session session(described, device,
-                           control::Planners{planner::path_planners(), earthwork::job_planners()});
+  session::Session session(
+      described, device,
+      control::Planners{planner::path_planners(), earthwork::job_planners(),
+                        scene_io::ordered_program_reader(control::step_kinds())});
   session.load(options.from);
   const sim::World& world = session.world();
   map::MapMaker maker(
@@ -168,9 +152,10 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
   const std::filesystem::path from(options.from);
   std::error_code unreadable;
   if (std::filesystem::is_directory(from, unreadable)) {
-    const scene::Scene scene = load(scene_of(from, options.from));
+    const scene::Scene scene = load(scene_in(options.from, "map", options.from));
     const std::string end = (from / "terrain_end.tif").string();
-    require_apart(options, format, reads_of(scene, {end, (from / "paths.csv").string()}));
+    require_apart(options.out, formats::files_of(format, options.out),
+                  reads_of(scene, {end, (from / "paths.csv").string()}));
     const heightfield::Ground site = heightfield::make_ground(scene);
     const map::MapOptions wanted = map_options(options, layers, scene, site);
     // At the start nothing has moved, so all bodies are known, not only fixed ones.
@@ -185,7 +170,7 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
   }
   if (is_sealed(options.from)) return {of_snapshot(options, format, layers), From::kSnapshot};
   const scene::Scene scene = load(scene_io::find_scene(options.from));
-  require_apart(options, format, reads_of(scene, {}));
+  require_apart(options.out, formats::files_of(format, options.out), reads_of(scene, {}));
   const heightfield::Ground site = heightfield::make_ground(scene);
   return {map::map_of_site(site, map_options(options, layers, scene, site),
                            sim::starting_areas(scene, site, sim::all_bodies(scene))),

@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/input_files.h"
 #include "control/step_kinds.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -18,6 +19,7 @@
 #include "formats/particle_files.h"
 #include "run/simulation.h"
 #include "scene_io/loader.h"
+#include "scene_io/ordered_program.h"
 #include "scene_io/shipped.h"
 #include "sim/read_particles.h"
 
@@ -48,21 +50,8 @@ std::string scene_of(const ParticlesCommand& options, bool snapshot) {
                            "omit it, or name a snapshot"});
   if (!options.scene.empty()) return scene_io::find_scene(options.scene);
   if (!snapshot) return scene_io::find_scene(options.from);
-  const std::filesystem::path beside =
-      std::filesystem::path(options.from).parent_path() / "scene.sdf";
-  std::error_code unreadable;
-  if (std::filesystem::is_regular_file(beside, unreadable)) return beside.string();
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "particles", options.from,
-                         "there is no scene.sdf beside the snapshot",
-                         "name its scene with --scene FILE"});
-}
-
-/// Refuses an output that would overwrite an input, whatever its name.
-void require_apart(const std::string& out, const std::vector<std::string>& reads) {
-  for (const std::string& read : reads)
-    if (same_file(out, read))
-      throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", out,
-                             "would replace '" + read + "', which is read", "name another file"});
+  return scene_in(std::filesystem::path(options.from).parent_path().string(), "particles",
+                  options.from);
 }
 
 int particles(const ParticlesCommand& options) {
@@ -73,9 +62,11 @@ int particles(const ParticlesCommand& options) {
   const bool snapshot = is_sealed(options.from);
   const std::string file = scene_of(options, snapshot);
   scene::Scene scene = scene_io::load_scene(file, control::step_kinds());
-  require_apart(options.out, {options.from, scene.file, scene.ground.file, scene.design.file});
+  require_apart(options.out, {options.out},
+                {options.from, scene.file, scene.ground.file, scene.design.file});
   run::SimulationOptions wanted;
   wanted.device = options.device;
+  wanted.read_program = scene_io::ordered_program_reader(control::step_kinds());
   run::Simulation simulation(std::move(scene), wanted);
   // Not SimulationOptions::resume, which refuses the snapshot of a run that is done.
   if (snapshot) simulation.load(options.from);

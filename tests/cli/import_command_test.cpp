@@ -49,10 +49,6 @@ class ImportCommand : public test::ProgramRun {
     EXPECT_NE(said().find(part), std::string::npos) << "'" << part << "' is not in:\n"
                                                     << said() << complained();
   }
-  void expect_complained(const std::string& part) const {
-    EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n"
-                                                          << complained();
-  }
 };
 
 TEST_F(ImportCommand, PrintsItsReportAndWritesItBesideTheMachine) {

@@ -27,11 +27,6 @@ class Particles : public test::ProgramRun {
 <active><min_m>0.6 0.1</min_m><max_m>1.4 0.9</max_m><bottom_m>0</bottom_m></active></navvy:ground></world></sdf>
 )";
   }
-  void expect_complained(const std::string& part) const {
-    EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n"
-                                                          << complained();
-  }
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
   std::string scene_;
 };
 

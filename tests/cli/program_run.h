@@ -42,6 +42,12 @@ class ProgramRun : public testing::Test {
   std::string out() const { return (directory_ / "out").string(); }
   std::string said() const { return text_of(directory_ / "stdout"); }
   std::string complained() const { return text_of(directory_ / "stderr"); }
+  void expect_complained(const std::string& part) const {
+    EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n"
+                                                          << complained();
+  }
+  /// Returns the path of a file in the folder of the test.
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
   nlohmann::json summary() const {
     return nlohmann::json::parse(text_of(out() + "/summary.json"), nullptr, false);
   }

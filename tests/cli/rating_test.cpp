@@ -18,7 +18,6 @@ using nlohmann::json;
 
 class Rating : public test::ProgramRun {
  protected:
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
   json read(const std::string& name) const { return json::parse(test::text_of(path(name))); }
 };
 
