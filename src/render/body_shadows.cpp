@@ -98,9 +98,11 @@ void BodyShadows::clear(const std::vector<PlacedShape>& bodies, const Lighting& 
     find_groups();
   }
   falling_.clear();
-  lighting_ = lighting;
-  ground_.begin(lighting, Vec3f::Zero(), Vec3f::Ones());
-  ground_.finish();
+  // A new version of the map would be sent to OpenGL again, for each picture of a depth camera.
+  if (ground_.version() == 0 || !ground_.empty()) {
+    ground_.begin(lighting, Vec3f::Zero(), Vec3f::Ones());
+    ground_.finish();
+  }
   for (Group& group : groups_) group.shadows = &ground_;
 }
 
