@@ -26,6 +26,8 @@ void add_map(CLI::App& app, Action& action);
 void add_particles(CLI::App& app, Action& action);
 /// Adds `navvy show`, which draws a scene before its run.
 void add_show(CLI::App& app, Action& action);
+/// Adds `navvy stage`, which writes a snapshot of a scene whose job is done in part.
+void add_stage(CLI::App& app, Action& action);
 /// Adds `navvy check`, which reports errors in input files.
 void add_check(CLI::App& app, Action& action);
 /// Adds `navvy score`, which prints the score of a run.

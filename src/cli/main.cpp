@@ -153,6 +153,7 @@ int run(int argc, char** argv) {
   // The command line is recorded in the folder of a run.
   cli::add_run(app, action, {argv, argv + argc});
   cli::add_show(app, action);
+  cli::add_stage(app, action);
   cli::add_check(app, action);
   cli::add_score(app, action);
   cli::add_compare(app, action);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "control/job_planner.h"
 #include "control/path_planner.h"
 #include "control/surface.h"
 #include "core/math.h"
@@ -73,6 +74,9 @@ class ActivityStep : public scene::Step {
   /// Returns the point at which the step empties the bucket. Empty if the step does not dump at a
   /// given point. The XML element of a step with a dump point has a child <dump_height_m>.
   virtual std::optional<DumpPoint> dump_point() const { return std::nullopt; }
+  /// Returns the pit that the step digs, with the place of its spoil; nothing if the step digs
+  /// none. A step begun in the middle digs the rest.
+  virtual std::optional<PitJob> pit_job() const { return std::nullopt; }
   /// Returns the name of the machine in whose bed the soil must land; empty if the step names none.
   virtual std::string receiver() const { return ""; }
 };

@@ -11,6 +11,14 @@ namespace {
 
 constexpr double kSpacing = 0.5;  // of points along a windrow [m]
 
+/// Returns true if the arm can dump at a point on ground of the given height.
+bool can_dump(const control::PitJob& job, const control::ArmKinematics& arm, const Pose& X_WS,
+              const Vec2& p, double height) {
+  control::ArmAngles q;
+  double possible = 0;
+  return control::dump_pose(arm, X_WS, p, height, job.dump_height, q, possible);
+}
+
 }  // namespace
 
 std::vector<Vec2> spoil_points(const control::PitJob& job) {
@@ -23,16 +31,21 @@ std::vector<Vec2> spoil_points(const control::PitJob& job) {
   return out;
 }
 
+std::vector<Vec2> reachable_spoil(const control::PitJob& job, const control::ArmKinematics& arm,
+                                  const Pose& X_WS, const control::SurfaceView& surface) {
+  std::vector<Vec2> out;
+  for (const Vec2& p : spoil_points(job))
+    if (can_dump(job, arm, X_WS, p, control::heap_height(surface, p))) out.push_back(p);
+  return out;
+}
+
 std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,
                                 const Pose& X_WS, const control::SurfaceView& surface) {
   std::optional<Vec2> best;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vec2& p : spoil_points(job)) {
     const double height = control::heap_height(surface, p);
-    control::ArmAngles q;
-    double possible = 0;
-    if (height >= lowest || !control::dump_pose(arm, X_WS, p, height, job.dump_height, q, possible))
-      continue;
+    if (height >= lowest || !can_dump(job, arm, X_WS, p, height)) continue;
     lowest = height;
     best = p;
   }

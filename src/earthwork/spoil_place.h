@@ -14,6 +14,10 @@ namespace navvy::earthwork {
 /// Returns the points of a job's windrow, half a metre apart; the one point of a heap.
 std::vector<Vec2> spoil_points(const control::PitJob& job);
 
+/// Returns those of these points at which the arm can dump with the swing axis at X_WS.
+std::vector<Vec2> reachable_spoil(const control::PitJob& job, const control::ArmKinematics& arm,
+                                  const Pose& X_WS, const control::SurfaceView& surface);
+
 /// Returns the point of the windrow at which the spoil is lowest among those that the arm reaches
 /// with the swing axis at X_WS; nothing if it reaches none.
 std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,

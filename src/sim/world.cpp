@@ -67,6 +67,14 @@ void World::add(std::unique_ptr<Sampler> sampler) {
 
 const heightfield::Ground& World::ground() const { return parts_->ground; }
 
+void World::reshape(const std::function<void(heightfield::Ground&)>& change) {
+  if (parts_->steps > 0) throw Error("the ground can be reshaped only before the first step");
+  const std::vector<std::int64_t> before = parts_->ground.mass_change();
+  change(parts_->ground);
+  if (parts_->ground.mass_change() != before)
+    throw Error("a change of the ground must keep the mass of each soil");
+}
+
 void World::keep_soil_energy() {
   if (parts_->soil.energy() == nullptr) parts_->soil.record_energy(true);
 }

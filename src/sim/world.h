@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -106,6 +107,10 @@ class World {
 
   /// Returns the ground columns. Active soil is not part of them; soil().loose_soil() returns it.
   const heightfield::Ground& ground() const;
+  /// Changes the ground columns before the first step by calling `change`, for example to begin
+  /// with a site that is dug in part. @throws Error after the first step, or if `change` has not
+  /// kept the mass of each soil; then the world can only be destroyed.
+  void reshape(const std::function<void(heightfield::Ground&)>& change);
   /// Returns access to measurements of the soil.
   SoilView soil() const { return SoilView(*parts_); }
   /// Starts the soil's energy account, unless it was started before. The account does not change
