@@ -11,6 +11,7 @@ void JobCut::visit(Archive& a) {
   a("rim", rim);
   a("dump_at", dump_at);
   a("key", key);
+  a("levels", levels);
 }
 
 void JobStation::visit(Archive& a) {

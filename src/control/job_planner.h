@@ -27,6 +27,9 @@ struct PitJob {
   double dump_height = 1.5;
   /// Largest depth of a layer [m].
   double pass_depth = 0.5;
+  /// Deviation (rms) from the design above which a strip of the floor is levelled [m]; 0: the floor
+  /// is not levelled.
+  double tolerance = 0;
 };
 
 /// One cut of a job: a strip one bucket wide, radial to the swing axis, in one layer.
@@ -41,6 +44,8 @@ struct JobCut {
   Vec2 dump_at = Vec2::Zero();
   /// Number of layer and direction; the same for the same cut on changed ground.
   std::int64_t key = 0;
+  /// True for one pass along the whole strip, which levels it.
+  bool levels = false;
 
   /// Saves or loads all fields.
   void visit(Archive& a);
@@ -78,9 +83,10 @@ struct JobPlan {
   std::vector<JobFault> faults;
 };
 
-/// Commanded volume of a job and the part of it that is left [m3].
+/// Commanded volume of a job and the part of it that is left [m3], and the deviation (rms) of the
+/// ground from the design [m].
 struct JobVolume {
-  double design = 0, left = 0;
+  double design = 0, left = 0, rms = 0;
 };
 
 /// Plans the job of one machine. All results depend only on the arguments, so that a run resumed
@@ -92,7 +98,8 @@ class JobPlanner {
   /// stands at X_WB at the start.
   virtual JobPlan plan(const PitJob& job, const Pose& X_WB, const SurfaceView& surface) const = 0;
   /// Returns the cuts that are worth a scoop on the present `surface`, from the place where the
-  /// machine stands: layer by layer from the top, in each from one side to the other.
+  /// machine stands: layer by layer from the top, in each from one side to the other; then the
+  /// strips that are to be levelled, if the job has a tolerance.
   virtual std::vector<JobCut> cuts(const PitJob& job, const Pose& X_WB,
                                    const SurfaceView& surface) const = 0;
   /// Returns the volumes of a job on the present `surface`.

@@ -3,6 +3,7 @@
 
 #include "control/activities/dig/dig.h"
 #include "control/activities/dig/dig_area.h"
+#include "control/activities/dig/grade.h"
 #include "control/activities/drive_to.h"
 #include "control/activities/dump.h"
 #include "control/activities/go_to.h"
@@ -22,7 +23,8 @@ const scene::StepKinds& step_kinds() {
       scene::step_kind<DriveTo>(), scene::step_kind<Dig>(),        scene::step_kind<Swing>(),
       scene::step_kind<Dump>(),    scene::step_kind<Wait>(),       scene::step_kind<Tip>(),
       scene::step_kind<WaitFor>(), scene::step_kind<Trajectory>(), scene::step_kind<GoTo>(),
-      scene::step_kind<Unhitch>(), scene::step_kind<DigArea>(),    scene::step_kind<Repeat>(),
+      scene::step_kind<Unhitch>(), scene::step_kind<DigArea>(),    scene::step_kind<Grade>(),
+      scene::step_kind<Repeat>(),
   };
   return kinds;
 }

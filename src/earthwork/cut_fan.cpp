@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "earthwork/station_search.h"
 
@@ -15,9 +17,12 @@ constexpr double kTouching = 0.95;  // distance of strips at the farthest soil /
 // The part of a strip that decides its floor reaches so far beyond the middle to its neighbour's
 // [m]. tuned: DigArea.BacksFromStationToStation; 0 and 0.04 over-dig by 0.103 and 0.087 m rms.
 constexpr double kAside = 0.04;
-constexpr double kLeastSoil = 0.1;    // soil above the floor at the ends of a cut [m]
+// Soil above the floor at the ends of a cut [m]; in a shallow job this share of its depth.
+constexpr double kLeastSoil = 0.1, kLeastShare = 0.3;
 constexpr double kLeastLength = 0.8;  // of a cut [m]
 constexpr double kWorth = 0.3;        // least volume of a cut / heaped capacity
+constexpr double kBeyondEdge = 0.6;   // where a pass that levels ends beyond the near edge [m]
+constexpr int kAcross = 5;            // places across a strip at which its level is looked at
 // Keys: layers are so far apart, and directions count from the middle of that.
 constexpr std::int64_t kLayerKeys = 1000;
 
@@ -31,12 +36,15 @@ class Fan {
         surface_(surface),
         width_(reach.arm().bucket().width),
         capacity_(reach.arm().bucket().capacity),
-        slope_(face_slope(job)) {
+        slope_(face_slope(job)),
+        tolerance_(job.tolerance),
+        least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)) {
     const Pose X_WS = X_WB * reach.arm().X_BS();
     centre_ = X_WS.translation().head<2>();
     ring_ = X_WS.translation().z();
     heading_ = control::plane_pose(X_WB).yaw;
-    layers_ = std::max(1, static_cast<int>(std::ceil(job.area.depth / job.pass_depth - 1e-9)));
+    layers_ = std::max(
+        1, static_cast<int>(std::ceil((pit.ground() - pit.lowest()) / job.pass_depth - 1e-9)));
     turn_ = kTouching * width_ / std::max(kFaceBegins, farthest());
   }
 
@@ -46,6 +54,8 @@ class Fan {
     for (int layer = 1; layer <= layers_; ++layer)
       for (int i = -most; i <= most; ++i)
         if (std::optional<control::JobCut> one = cut(layer, i)) out.push_back(*std::move(one));
+    for (int i = -most; i <= most && tolerance_ > 0; ++i)
+      if (std::optional<control::JobCut> one = level(i)) out.push_back(*std::move(one));
     return out;
   }
 
@@ -92,7 +102,7 @@ class Fan {
       const bool digs = z && top - *z > 0 && r <= reach_.at(*z - ring_).most;
       // Where nothing is to be dug, the edge stays on the ground.
       floors.push_back(digs ? *z : z ? std::max(*z, top) : top);
-      if (!digs || top - *z < kLeastSoil) continue;
+      if (!digs || top - *z < least_soil_) continue;
       if (first < 0) first = k;
       last = k;
       volume += (top - *z) * width_ * kSample;
@@ -107,10 +117,63 @@ class Fan {
     return out;
   }
 
+  /// Returns the sum of the squares of the heights [m2] by which soil stands above the floor `z` of
+  /// a strip, over kAcross places across it.
+  double deviation(double r, double angle, double z) const {
+    const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
+    double out = 0;
+    for (int k = 0; k < kAcross; ++k) {
+      const double t = width_ * ((k + 0.5) / kAcross - 0.5);
+      const Vec2 p = centre_ + r * along + t * across;
+      if (!std::isnan(pit_.floor(p)))
+        out += std::pow(std::max(0.0, surface_.height(p.x(), p.y()) - z), 2);
+    }
+    return out;
+  }
+
+  /// Returns the strip in direction `i` for a pass that levels it; nothing if it is level.
+  std::optional<control::JobCut> level(int i) const {
+    const double angle = heading_ + i * turn_;
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    control::JobCut out;
+    std::vector<double> floors, before;
+    int first = -1, last = -1;
+    double squares = 0;
+    const int samples = static_cast<int>((reach_.arm().longest() + 2 - kFaceBegins) / kSample);
+    for (int k = 0; k <= samples; ++k) {
+      const double r = kFaceBegins + k * kSample;
+      const std::optional<double> z = floor(r, angle, pit_.lowest());
+      const bool inside = z && r <= reach_.at(*z - ring_).most;
+      // One stretch of the strip, the nearest.
+      if (!inside && first >= 0) break;
+      const Vec2 p = centre_ + r * along;
+      if (!inside) before.push_back(surface_.height(p.x(), p.y()));
+      if (!inside) continue;
+      if (first < 0) first = k;
+      last = k;
+      floors.push_back(*z);
+      squares += deviation(r, angle, *z);
+    }
+    const int length = last - first;
+    if (first < 0 || length * kSample < kLeastLength ||
+        std::sqrt(squares / (kAcross * (length + 1))) <= tolerance_)
+      return std::nullopt;
+    // The bucket leaves the ground beyond the near edge, as far as it reaches.
+    const int beyond = std::min(first, static_cast<int>(kBeyondEdge / kSample));
+    floors.insert(floors.begin(), before.end() - beyond, before.end());
+    out.near = centre_ + (kFaceBegins + (first - beyond) * kSample) * along;
+    out.far = centre_ + (kFaceBegins + last * kSample) * along;
+    out.floor = std::move(floors);
+    out.rim = pit_.rim();
+    out.key = (layers_ + 1) * kLayerKeys + i + kLayerKeys / 2;
+    out.levels = true;
+    return out;
+  }
+
   const PitShape& pit_;
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
-  const double width_, capacity_, slope_;
+  const double width_, capacity_, slope_, tolerance_, least_soil_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;
   int layers_ = 1;

@@ -11,8 +11,9 @@
 namespace navvy::earthwork {
 
 /// Returns the cuts that are worth a scoop from the pose X_WB of the base link: layer by layer from
-/// the top, in each layer one strip per direction. The directions are so close that strips touch at
-/// the farthest soil and overlap nearer to the machine. Places of spoil are not filled in.
+/// the top, in each layer one strip per direction; then, for a job with a tolerance, the strips
+/// that deviate by more from the design. The directions are so close that strips touch at the
+/// farthest soil and overlap nearer to the machine. Places of spoil are not filled in.
 std::vector<control::JobCut> cut_fan(const control::PitJob& job, const PitShape& pit,
                                      const ArmReach& reach, const Pose& X_WB,
                                      const control::SurfaceView& surface);

@@ -21,8 +21,8 @@ constexpr double kAroundStation = 2;  // from the site's border to a station [m]
 constexpr double kLeastLost = 0.05;   // volume out of reach that is a fault [m3]
 
 /// Reports sides that are steeper than the soil stands.
-void check_batter(const control::PitJob& job, const control::SurfaceView& surface,
-                  std::vector<control::JobFault>& faults) {
+void check_batter(const control::PitJob& job, const PitShape& pit,
+                  const control::SurfaceView& surface, std::vector<control::JobFault>& faults) {
   const heightfield::Terrain& site = surface.terrain();
   const Vec2 corner = job.area.polygon.front();
   const Vec2i column = site.column_at(corner.x(), corner.y());
@@ -30,13 +30,14 @@ void check_batter(const control::PitJob& job, const control::SurfaceView& surfac
   if (kind >= site.setup().soils.size()) return;
   const scene::Soil& soil = site.setup().soils[kind];
   const double height = standing_height(soil, job.area.batter);
-  if (job.area.depth <= height) return;
+  const double depth = pit.ground() - pit.lowest();
+  if (depth <= height) return;
   double flatter = job.area.batter;
-  while (flatter > soil.friction_angle && standing_height(soil, flatter) < job.area.depth)
+  while (flatter > soil.friction_angle && standing_height(soil, flatter) < depth)
     flatter -= radians(1);
   faults.push_back({"batter_deg", number_text(degrees(job.area.batter), "deg"),
                     "'" + soil.name + "' stands at that angle up to " + metres(height) + ", at " +
-                        place_text(corner) + " the pit is " + metres(job.area.depth) + " deep",
+                        place_text(corner) + " the pit is " + metres(depth) + " deep",
                     "at most " + number_text(std::floor(degrees(flatter)), "deg")});
 }
 
@@ -57,7 +58,7 @@ double standing_height(const scene::Soil& soil, double batter) {
 std::vector<control::JobFault> check_pit(const control::PitJob& job, const PitShape& pit,
                                          const control::SurfaceView& surface) {
   std::vector<control::JobFault> faults;
-  check_batter(job, surface, faults);
+  check_batter(job, pit, surface, faults);
   for (const Vec2& p : spoil_points(job)) {
     if (!pit.is_near(p, kSpoilClear)) continue;
     faults.push_back({"dump_at_m", place_text(p),

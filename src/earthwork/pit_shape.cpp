@@ -13,12 +13,14 @@ PitShape::PitShape(const control::PitJob& job, const control::SurfaceView& surfa
   const Vec2 corner = job.area.polygon.front();
   const Vec2i column = terrain_.column_at(corner.x(), corner.y());
   ground_ = terrain_.start_height(column.x(), column.y());
-  lowest_ = ground_ - job.area.depth;
-  rim_ = ground_;
+  lowest_ = rim_ = ground_;
   const heightfield::CellRect& r = design_.rect;
   for (int iy = r.y0; iy < r.y1; ++iy)
     for (int ix = r.x0; ix < r.x1; ++ix)
-      if (!std::isnan(design_.at(ix, iy))) rim_ = std::max(rim_, terrain_.start_height(ix, iy));
+      if (const auto z = static_cast<double>(design_.at(ix, iy)); !std::isnan(z)) {
+        rim_ = std::max(rim_, terrain_.start_height(ix, iy));
+        lowest_ = std::min(lowest_, z);
+      }
 }
 
 double PitShape::floor(const Vec2& p) const {
@@ -44,6 +46,8 @@ std::vector<PitColumn> PitShape::columns() const {
 
 control::JobVolume PitShape::volume() const {
   control::JobVolume out;
+  double squares = 0;
+  int columns = 0;
   const heightfield::CellRect& r = design_.rect;
   for (int iy = r.y0; iy < r.y1; ++iy)
     for (int ix = r.x0; ix < r.x1; ++ix) {
@@ -52,8 +56,12 @@ control::JobVolume PitShape::volume() const {
       const double start = std::max(0.0, terrain_.start_height(ix, iy) - z);
       out.design += start * column_area();
       // Soil that lies higher than the ground was is not part of the commanded volume.
-      out.left += std::clamp(terrain_.height(ix, iy) - z, 0.0, start) * column_area();
+      const double error = terrain_.height(ix, iy) - z;
+      out.left += std::clamp(error, 0.0, start) * column_area();
+      squares += error * error;
+      ++columns;
     }
+  if (columns > 0) out.rms = std::sqrt(squares / columns);
   return out;
 }
 

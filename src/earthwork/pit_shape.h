@@ -39,7 +39,7 @@ class PitShape {
   double column_area() const { return terrain_.cell() * terrain_.cell(); }
   /// Returns the distance between column centres [m].
   double cell() const { return terrain_.cell(); }
-  /// Returns the commanded volume, and what is left of it [m3].
+  /// Returns the commanded volume, what is left of it, and the deviation of the ground.
   control::JobVolume volume() const;
   /// Returns true if the pit is within `range` [m] of the point `p`.
   bool is_near(const Vec2& p, double range) const;

@@ -9,10 +9,11 @@
 namespace navvy::earthwork {
 namespace {
 
-constexpr double kStep = 0.25;       // between candidates for stations [m]
-constexpr double kFront = 0.3;       // depth of the farthest soil that decides a station [m]
-constexpr double kLeastBack = 0.3;   // a station is so far behind the one before it [m]
-constexpr double kLeastDepth = 0.1;  // soil that is lower is no reason for a station [m]
+constexpr double kStep = 0.25;      // between candidates for stations [m]
+constexpr double kFront = 0.3;      // depth of the farthest soil that decides a station [m]
+constexpr double kLeastBack = 0.3;  // a station is so far behind the one before it [m]
+// Soil that is lower is no reason for a station [m]; in a shallow job this share of its depth.
+constexpr double kLeastDepth = 0.1, kLeastShare = 0.3;
 
 /// Search along one axis.
 class AxisSearch {
@@ -24,7 +25,8 @@ class AxisSearch {
         axis_(axis),
         ahead_(std::cos(axis.heading), std::sin(axis.heading)),
         across_(-ahead_.y(), ahead_.x()),
-        slope_(face_slope(job)) {}
+        slope_(face_slope(job)),
+        least_(std::min(kLeastDepth, kLeastShare * job.area.depth)) {}
 
   /// Moves the columns that the axis is for from `open` to its stations.
   void run(std::vector<PitColumn>& open, Stations& out) {
@@ -55,7 +57,7 @@ class AxisSearch {
     return out;
   }
   void drop_thin() {
-    std::erase_if(left_, [](const PitColumn& one) { return one.top - one.floor < kLeastDepth; });
+    std::erase_if(left_, [this](const PitColumn& one) { return one.top - one.floor < least_; });
   }
   /// Returns true if a column is dug to its floor with the swing axis at `place`.
   bool covers(double place, const PitColumn& one) const {
@@ -117,7 +119,7 @@ class AxisSearch {
   const Digger& digger_;
   const RetreatAxis& axis_;
   const Vec2 ahead_, across_;
-  const double slope_;
+  const double slope_, least_;
   std::vector<PitColumn> left_;
 };
 

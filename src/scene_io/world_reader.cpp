@@ -67,7 +67,7 @@ void read_goals(Element& world_element, scene::Scene& world, Faults& faults) {
     faults.warning(*e, "", "sets no goal", "add one, such as <completion>0.95</completion>");
   else if (world.goals.need_design() && !world.commanded_design().any())
     faults.error(*e, "", "goals of the shape need a shape",
-                 "add a <navvy:design>, or a dig_area to a program");
+                 "add a <navvy:design>, or a dig_area or grade to a program");
 }
 
 /// Reads records. The code that writes maps knows formats and layers; it checks them with the line.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "control/activities/dig/dig_area.h"
+#include "control/activities/dig/grade.h"
 #include "control/activities/go_to.h"
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
@@ -24,6 +25,7 @@ namespace navvy::earthwork {
 namespace {
 
 using control::DigArea;
+using control::Grade;
 using control::JobPlan;
 
 /// Plans straight ahead on ground that is drivable everywhere.
@@ -201,6 +203,64 @@ TEST(DigArea, BacksFromStationToStation) {
                                      [](const auto& one) { return one.name == "stations"; });
   ASSERT_NE(stations, account.end());
   EXPECT_GE(stations->value, 2);
+}
+
+TEST(Grade, LevelsAPlaneThatFalls) {
+  const LogLines log;
+  Grade step;
+  step.polygon = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+  step.depth = 0.12;
+  step.fall = radians(1);
+  step.fall_yaw = radians(90);
+  step.dump_at = Vec2(-10, 6.4);
+  step.dump_to = Vec2(-1, 6.4);
+  step.has_dump_to = true;
+  scene::Program program;
+  program.steps = {step};
+  control::testing::DigRig rig(control::testing::ew180_like(), program, make_pose(-10.5, 0, 0),
+                               planners());
+  ASSERT_TRUE(rig.run(3000)) << rig.op.phase() << "\n" << log.text();
+  measure(rig.ground, step);
+  std::printf("%zu cycles, %.0f s\n", rig.cycles.size(), rig.time);
+  const control::StepReport& report = rig.op.reports().back();
+  EXPECT_EQ(report.element, "grade");
+  const auto rms = std::find_if(report.measurements.begin(), report.measurements.end(),
+                                [](const auto& one) { return one.name == "deviation_rms_m"; });
+  ASSERT_NE(rms, report.measurements.end());
+  // It says that it is done: at most twice the tolerance.
+  EXPECT_LE(rms->value, 0.06);
+}
+
+/// Finds no path at all.
+class BlockedPlanner final : public control::PathPlanner {
+ public:
+  void look(const control::SurfaceView&) override {}
+  double clearance(const control::PlanePose&, double) const override { return 0; }
+  std::optional<control::Path> plan(const control::PathQuery&) const override {
+    return std::nullopt;
+  }
+};
+
+TEST(DigArea, LeavesOutStationsThatItCannotReachAndSaysWhy) {
+  const LogLines log;
+  scene::Program program;
+  program.steps = {pit(4, 3, 1.5)};
+  // Square to the axis of the pit, so that no straight drive leads to a station.
+  control::testing::DigRig rig(
+      control::testing::ew180_like(), program, make_pose(-10.5, 0, 0, 0, 0, radians(90)),
+      {[](const scene::Machine&) { return std::make_unique<BlockedPlanner>(); }, job_planners()});
+  EXPECT_FALSE(rig.run(600));
+  ASSERT_FALSE(rig.op.reports().empty());
+  const control::StepReport& report = rig.op.reports().back();
+  EXPECT_EQ(report.state, control::StepState::kBlocked);
+  EXPECT_NE(report.reason.find("what is left could not be dug"), std::string::npos)
+      << report.reason;
+  EXPECT_NE(report.reason.find("station 2 of 2 was not reached"), std::string::npos)
+      << report.reason;
+  const auto missed = std::find_if(report.measurements.begin(), report.measurements.end(),
+                                   [](const auto& one) { return one.name == "stations_missed"; });
+  ASSERT_NE(missed, report.measurements.end());
+  EXPECT_EQ(missed->value, 2);
 }
 
 TEST(DigArea, LeavesPathsOfLaterStepsUntilItIsDone) {

@@ -22,10 +22,13 @@ constexpr double kAtStation = 0.3, kAtHeading = radians(6);
 // A drive is straight if the target is so little aside of the machine's axis [m] and its heading
 // differs by so little [rad].
 constexpr double kAside = 0.4, kTurned = radians(6);
-// A cut is begun at most so often at one station: soil falls back into some.
-constexpr int kMostRepeats = 2;
+// A cut is begun at most so often at one station: soil falls back into some. A strip is levelled at
+// most so often: a full bucket leaves the rest of it.
+constexpr int kMostRepeats = 2, kMostPasses = 3;
 // Share of the commanded volume: with more left, the pit is not done, as for a trench.
 constexpr double kUndone = 0.15;
+// A levelled floor may deviate so many tolerances from its design.
+constexpr double kUneven = 2;
 
 }  // namespace
 
@@ -39,6 +42,9 @@ void AreaMemory::visit(Archive& a) {
   a("cuts", cuts);
   a("failed", failed);
   a.ranged("way", way, Way::kNone, Way::kBack);
+  a("detour", detour);
+  a("missed", missed);
+  a("trouble", trouble);
 }
 
 AreaDigging::~AreaDigging() = default;
@@ -62,7 +68,7 @@ void AreaDigging::aim(const Observation& seen) {
   const PlanePose at = plane_pose(seen.X_WB), &to = station().at;
   const Vec2 ahead(std::cos(at.yaw), std::sin(at.yaw)), across(-ahead.y(), ahead.x());
   const Vec2 line = to.p - at.p;
-  const bool straight = std::abs(line.dot(across)) <= kAside &&
+  const bool straight = !m.detour && std::abs(line.dot(across)) <= kAside &&
                         std::abs(std::remainder(at.yaw - to.yaw, 2 * kPi)) <= kTurned;
   m.way = !straight ? Way::kPlanned : line.dot(ahead) >= 0 ? Way::kAhead : Way::kBack;
 }
@@ -94,6 +100,7 @@ void AreaDigging::make_part() {
     step->rim = m.cut.rim;
     step->width = place_.arm->bucket().width;
     step->depth = job_.pass_depth;
+    step->levels = m.cut.levels;
     // One layer is one slice, also where the ground is higher than it was.
     step->pass_depth = 2 * job_.pass_depth;
     step->dump_at = m.cut.dump_at;
@@ -110,7 +117,9 @@ bool AreaDigging::select_cut(const Observation& seen) {
     return place_.jobs->cuts(job_, seen.X_WB, surface);
   });
   for (const JobCut& cut : cuts) {
-    if (std::count(m.begun.begin(), m.begun.end(), cut.key) >= kMostRepeats) continue;
+    if (std::count(m.begun.begin(), m.begun.end(), cut.key) >=
+        (cut.levels ? kMostPasses : kMostRepeats))
+      continue;
     m.begun.push_back(cut.key);
     m.cut = cut;
     ++m.cuts;
@@ -130,9 +139,7 @@ bool AreaDigging::go_on(const Observation& seen) {
   } else if (select_cut(seen)) {
     enter(kCut);
   } else {
-    ++m.station;
-    m.begun.clear();
-    enter(kNext);
+    leave_station();
     return false;
   }
   make_part();
@@ -140,28 +147,46 @@ bool AreaDigging::go_on(const Observation& seen) {
   return false;
 }
 
-bool AreaDigging::end_part() {
-  const StepState state = part_->state();
+void AreaDigging::leave_station() {
+  ++m.station;
+  m.begun.clear();
+  m.detour = false;
+  enter(kNext);
+}
+
+void AreaDigging::end_part() {
+  const bool failed = fell_short(part_->state());
   const std::string reason = part_->reason();
   part_.reset();
   part_step_.reset();
-  if (!fell_short(state)) return false;
-  if (phase_index() != kCut)
-    return Activity::fall_short(state, "on the way to station " + std::to_string(m.station + 1) +
-                                           " of " + std::to_string(m.stations.size()) + ": " +
-                                           reason);
-  // Another cut may do, and what is left decides in the end.
-  ++m.failed;
-  place_.warn("the cut from " + place_text(m.cut.far) + " to " + place_text(m.cut.near) +
-              " is left: " + reason);
-  return false;
+  if (!failed) return;
+  if (phase_index() == kCut) {
+    // Another cut may do, and what is left decides in the end.
+    ++m.failed;
+    place_.warn("the cut from " + place_text(m.cut.far) + " to " + place_text(m.cut.near) +
+                " is left: " + reason);
+    return;
+  }
+  const std::string where =
+      "station " + std::to_string(m.station + 1) + " of " + std::to_string(m.stations.size());
+  if (phase_index() == kDrive && m.way != AreaMemory::Way::kPlanned) {
+    place_.warn("the straight drive to " + where + " failed, it plans a path: " + reason);
+    m.detour = true;
+    enter(kNext);
+    return;
+  }
+  ++m.missed;
+  m.trouble = where + " was not reached: " + reason;
+  place_.warn(m.trouble);
+  leave_station();
 }
 
 bool AreaDigging::update(const Observation& seen, double dt, Command& out) {
   if (part_) {
     const bool over = part_->advance(seen, dt, out);
     if (const CycleEvent event = part_->take_event(); event != CycleEvent::kNone) tell(event);
-    return over && end_part();
+    if (over) end_part();
+    return false;
   }
   return go_on(seen);
 }
@@ -169,10 +194,17 @@ bool AreaDigging::update(const Observation& seen, double dt, Command& out) {
 bool AreaDigging::conclude(const Observation& seen) {
   const JobVolume volume = with_surface(
       seen, [&](const SurfaceView& surface) { return place_.jobs->volume(job_, surface); });
-  if (volume.left <= kUndone * volume.design) return true;
+  const bool dug = volume.left <= kUndone * volume.design;
+  if (dug && (job_.tolerance == 0 || volume.rms <= kUneven * job_.tolerance)) return true;
+  if (dug)
+    return Activity::fall_short(
+        StepState::kBlocked, "the ground still deviates from the design by " + metres(volume.rms) +
+                                 " (rms), more than twice the tolerance" +
+                                 (m.trouble.empty() ? "" : "; " + m.trouble));
   return Activity::fall_short(StepState::kBlocked,
                               "what is left could not be dug: " + number_text(volume.left, "m3") +
-                                  " of " + number_text(volume.design, "m3"));
+                                  " of " + number_text(volume.design, "m3") +
+                                  (m.trouble.empty() ? "" : "; " + m.trouble));
 }
 
 const char* AreaDigging::phase() const {
@@ -184,11 +216,13 @@ std::vector<Measurement> AreaDigging::account(const Observation& seen) const {
   const JobVolume volume = with_surface(
       seen, [&](const SurfaceView& surface) { return place_.jobs->volume(job_, surface); });
   return {{"stations", static_cast<double>(m.stations.size())},
-          {"stations_done", static_cast<double>(m.station)},
+          {"stations_done", static_cast<double>(m.station - m.missed)},
+          {"stations_missed", static_cast<double>(m.missed)},
           {"cuts", static_cast<double>(m.cuts)},
           {"cuts_failed", static_cast<double>(m.failed)},
           {"design_volume_m3", volume.design},
-          {"volume_left_m3", volume.left}};
+          {"volume_left_m3", volume.left},
+          {"deviation_rms_m", volume.rms}};
 }
 
 void AreaDigging::visit(Archive& a) {

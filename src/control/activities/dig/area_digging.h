@@ -34,6 +34,11 @@ struct AreaMemory {
   };
   /// The way to the present station.
   Way way = Way::kNone;
+  /// True after the straight drive to the present station has failed.
+  bool detour = false;
+  /// Number of stations that could not be reached, and why the last one could not.
+  std::int64_t missed = 0;
+  std::string trouble;
 
   /// Saves or loads all fields.
   void visit(Archive& a);
@@ -74,8 +79,11 @@ class AreaDigging final : public ActivityWith<AreaMemory> {
   bool stands_at(const Observation& seen, const PlanePose& pose) const;
   /// Sets up the drive to the present station: straight if that leads there, else planned.
   void aim(const Observation& seen);
-  /// Handles the end of the running part. Returns true when the step has failed.
-  bool end_part();
+  /// Handles the end of the running part: a straight drive that failed is tried once along a
+  /// planned path, then the station is left out; a cut that failed is left out.
+  void end_part();
+  /// Goes on to the next station.
+  void leave_station();
   /// Ends the step by what is left.
   bool conclude(const Observation& seen);
   /// Returns the present station.

@@ -57,6 +57,8 @@ struct Dig final : ActivityStep {
   std::vector<double> floor;
   /// Height in W above which the bucket swings [m]; used if `is_cut`.
   double rim = 0;
+  /// True for one pass along the whole floor, whatever it brings. Not an element of scenes either.
+  bool levels = false;
   /// Returns true for a cut of a job: soil that is left is no failure, and the floor is not cleaned
   /// up.
   bool is_cut() const { return !floor.empty(); }

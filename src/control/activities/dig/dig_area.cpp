@@ -2,7 +2,9 @@
 // The dig_area step as a scene describes it; area_digging.h carries it out.
 #include "control/activities/dig/dig_area.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "control/activities/dig/area_digging.h"
@@ -18,16 +20,24 @@ void DigArea::check(const scene::StepSource& source) {
   const bool can = machine && !machine->buckets.empty() && !machine->arm.boom.empty() &&
                    !machine->arm.stick.empty() && !machine->arm.bucket.empty();
   source.require(can,
-                 "dig_area needs a machine with <navvy:bucket> and <navvy:arm> (boom, stick, "
-                 "bucket)");
-  source.require(machine && machine->has_drive, "dig_area needs a machine with <navvy:drive>");
+                 (element() + std::string(" needs a machine with <navvy:bucket> and <navvy:arm> "
+                                          "(boom, stick, bucket)"))
+                     .c_str());
+  source.require(machine && machine->has_drive,
+                 (element() + std::string(" needs a machine with <navvy:drive>")).c_str());
   if (source.has("polygon_m"))
     if (const std::optional<scene::PolygonFault> fault =
             scene::polygon_of(polygon_numbers, polygon))
       source.error("polygon_m", fault->value, fault->rule, fault->remedy);
   source.on_site("dump_at_m", dump_at);
   if (has_dump_to) source.on_site("dump_to_m", dump_to);
-  if (source.ground && depth > source.ground->depth)
+  double deepest = depth;
+  for (const Vec2& p : polygon)
+    deepest = std::max(
+        deepest,
+        depth + std::tan(fall) *
+                    (p - polygon.front()).dot(Vec2(std::cos(fall_yaw), std::sin(fall_yaw))));
+  if (source.ground && deepest > source.ground->depth)
     source.error("depth_m", source.written("depth_m"), "must not exceed depth_m of the ground",
                  "there is rock below; make the ground deeper");
 }
@@ -39,6 +49,8 @@ std::optional<scene::DesignArea> DigArea::area() const {
   out.polygon_numbers = polygon_numbers;
   out.depth = depth;
   out.batter = batter;
+  out.fall = fall;
+  out.fall_yaw = fall_yaw;
   return out;
 }
 
@@ -50,8 +62,12 @@ std::vector<Vec2> DigArea::places() const {
 }
 
 PitJob DigArea::job() const {
-  return {area().value_or(scene::DesignArea{}), dump_at, has_dump_to ? dump_to : dump_at,
-          dump_height, pass_depth};
+  return {area().value_or(scene::DesignArea{}),
+          dump_at,
+          has_dump_to ? dump_to : dump_at,
+          dump_height,
+          pass_depth,
+          tolerance};
 }
 
 std::unique_ptr<Activity> DigArea::activity(OperatorContext& place) const {
@@ -60,13 +76,13 @@ std::unique_ptr<Activity> DigArea::activity(OperatorContext& place) const {
 
 void DigArea::check_reach(ReachCheck& check) const {
   if (!check.jobs) {
-    check.fault("dig_area", "", "nobody plans jobs here",
+    check.fault(element(), "", "nobody plans jobs here",
                 "hand a job planner to the operator, or dig single trenches");
     return;
   }
   const JobPlan plan = check.jobs->plan(job(), check.X_WB, check.surface);
   for (const JobFault& one : plan.faults) {
-    const std::string part = std::string(kElement) + "/" + one.part;
+    const std::string part = std::string(element()) + "/" + one.part;
     if (one.error)
       check.fault(part, one.value, one.rule, one.remedy);
     else

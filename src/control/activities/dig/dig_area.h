@@ -18,9 +18,10 @@ namespace navvy::control {
 /// bucket wide, layer by layer, as the ground then is, and backs to the next one. Between stations
 /// it drives straight; to the first one along a planned path where straight does not lead there.
 ///
-/// The step is done if at most 15 % of the commanded volume is left. A cut that fails is left out;
-/// the step fails if the machine cannot get to a station.
-struct DigArea final : ActivityStep {
+/// The step is done if at most 15 % of the commanded volume is left. A cut that fails is left out.
+/// A straight drive that fails is tried once more along a planned path, and then its station is
+/// left out.
+struct DigArea : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "dig_area";
   /// One-sentence description of the step for the reference of scene elements.
@@ -32,6 +33,12 @@ struct DigArea final : ActivityStep {
   std::vector<Vec2> polygon;
   /// Depth of the floor at the first corner below the ground at the start [m].
   double depth = 1;
+  /// Angle by which the floor falls [rad], and the direction in which it does, from W's x [rad].
+  /// Only a grade has them.
+  double fall = 0, fall_yaw = 0;
+  /// Deviation from the design above which a strip of the floor is levelled [m]; 0, as for all but
+  /// a grade: it is not levelled.
+  double tolerance = 0;
   /// Angle of the sides from the horizontal [rad]; pi/2: vertical.
   double batter = radians(45);
   /// Ends (x, y) in W of the windrow in which the soil is dumped [m].
@@ -55,18 +62,7 @@ struct DigArea final : ActivityStep {
       scene::kNeeded);
     f("depth_m", depth, {0.1, 20}, "Depth of the floor below the ground at the first corner.",
       scene::kNeeded);
-    f("batter_deg", batter, {15, 90}, "Angle of the sides from the horizontal; 90: vertical.");
-    f("dump_at_m", dump_at, {-1e6, 1e6}, "Place of the spoil in W.", scene::kNeeded);
-    f("dump_to_m", dump_to, {-1e6, 1e6},
-      "Other end of a windrow that begins at dump_at_m; without it the spoil is a heap.",
-      scene::given(has_dump_to));
-    f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
-    f("pass_depth_m", pass_depth, {0.1, 5}, "Largest depth of a layer.");
-    f("fill", fill, {0.1, 1.5},
-      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
-      "soil.",
-      scene::given(has_fill));
-    f("speed_m_per_s", speed, {0.05, 20}, "Speed between stations.");
+    describe_work(f);
   }
   /// Reports an error if the machine cannot dig or drive, for a polygon without an inside, for
   /// places off the site, and for a pit deeper than the ground.
@@ -87,11 +83,30 @@ struct DigArea final : ActivityStep {
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   /// Reports the faults of the job planner's plan, and its stations as notes.
   void check_reach(ReachCheck& check) const override;
+  /// Returns the job for the job planner.
+  std::optional<PitJob> pit_job() const override { return job(); }
   /// Returns the beginning of the windrow.
   std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }
 
   /// Returns the job for the job planner.
   PitJob job() const;
+
+ protected:
+  /// Lists the child elements that every job has.
+  void describe_work(scene::Fields& f) {
+    f("batter_deg", batter, {15, 90}, "Angle of the sides from the horizontal; 90: vertical.");
+    f("dump_at_m", dump_at, {-1e6, 1e6}, "Place of the spoil in W.", scene::kNeeded);
+    f("dump_to_m", dump_to, {-1e6, 1e6},
+      "Other end of a windrow that begins at dump_at_m; without it the spoil is a heap.",
+      scene::given(has_dump_to));
+    f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
+    f("pass_depth_m", pass_depth, {0.1, 5}, "Largest depth of a layer.");
+    f("fill", fill, {0.1, 1.5},
+      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
+      "soil.",
+      scene::given(has_fill));
+    f("speed_m_per_s", speed, {0.05, 20}, "Speed between stations.");
+  }
 };
 
 }  // namespace navvy::control

@@ -87,6 +87,8 @@ class DigPlan {
   /// Returns a scoop along the floor of the trench, from the farthest soil on it, if it would bring
   /// a load worth a cycle. `hindered` as in `next`.
   Scoop clean_up(const SurfaceView& surface, bool hindered) const;
+  /// Returns a scoop along the whole floor.
+  Scoop whole_floor() const { return {length_, 0, length_, dig_.depth, true}; }
   /// Returns the volume of soil [m3] that is inside the width of the trench and above a given
   /// depth. `level` is that depth below the original surface [m]. Soil that cannot be dug does not
   /// count.

@@ -90,9 +90,12 @@ bool Digging::plan_scoop(const Observation& seen) {
   // Both limits end the dig whatever the plan still sees.
   if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty)
     return false;
-  Scoop scoop = with_surface(
-      seen, [&](const SurfaceView& surface) { return plan_.next(surface, m.hindered != 0); });
-  m.cleaning = 0;
+  if (dig_.levels && cycles() > 0) return false;
+  Scoop scoop =
+      dig_.levels ? plan_.whole_floor() : with_surface(seen, [&](const SurfaceView& surface) {
+        return plan_.next(surface, m.hindered != 0);
+      });
+  m.cleaning = dig_.levels ? 1 : 0;
   // Soil that fell back is spread along the whole floor, too thin for a scoop of the plan; one or
   // two passes clean it up.
   if (!scoop.any && !dig_.is_cut() && may_clean(seen)) {
