@@ -14,6 +14,7 @@
 #include "cli/exit_code.h"
 #include "cli/scene_options.h"
 #include "cli/validators.h"
+#include "control/step_kinds.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/printable.h"
@@ -27,6 +28,7 @@
 #include "run/simulation.h"
 #include "run/start_checks.h"
 #include "run/stop_signals.h"
+#include "scene_io/ordered_program.h"
 
 namespace navvy::cli {
 namespace {
@@ -273,6 +275,7 @@ int run_scene(RunOptions options) {
   scene::Scene scene = load(options, wanted.scene_text);
   if (wanted.folder.empty()) wanted.folder = default_out(scene);
   wanted.device = options.scene.device;
+  wanted.read_program = scene_io::ordered_program_reader(control::step_kinds());
   wanted.replay = !options.no_report;
   if (!options.pictures.empty()) wanted.picture_format = picture_formats().at(options.pictures);
   if (!options.control.empty()) wanted.control_rate = options.control_rate;

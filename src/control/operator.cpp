@@ -222,6 +222,7 @@ Operator::Operator(const scene::Machine& machine, const scene::Program& program,
     : state_(std::make_unique<State>(machine, program, name, planners)) {}
 Operator::~Operator() = default;
 Operator::Operator(Operator&&) noexcept = default;
+Operator& Operator::operator=(Operator&&) noexcept = default;
 
 bool Operator::done() const { return state_->done(); }
 bool Operator::ended() const { return state_->done() || state_->failed(); }
@@ -286,8 +287,9 @@ Command Operator::update(const Observation& seen, double time, double dt) {
 void Operator::visit(Archive& a) {
   State& s = *state_;
   // Version 5: reports of the steps, commands; 6: the machine's stability; 7: events after the last
-  // step; 8: a scoop begins before its soil; 9: the place where a step began.
-  a.section("operator", 9, [&] {
+  // step; 8: a scoop begins before its soil; 9: the place where a step began; 10: stations of a job
+  // that were not reached.
+  a.section("operator", 10, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
               "the program has no such step; use the scene it was made with");

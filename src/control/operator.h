@@ -36,6 +36,7 @@ class Operator {
            const Planners& planners = {});
   ~Operator();
   Operator(Operator&&) noexcept;
+  Operator& operator=(Operator&&) noexcept;
 
   /// Advances the program by one control step. Returns the commands that are valid until the next
   /// call. `seen` is the machine's current observation, `time` the simulated time [s], and `dt` the

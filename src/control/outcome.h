@@ -37,6 +37,8 @@ enum class StepState : std::uint8_t {
   kMoved,
   /// The machine's base has left the site.
   kOffSite,
+  /// Another program was ordered before the step ended.
+  kReplaced,
 };
 
 /// Returns the name of a state as used in files and messages, such as "out_of_reach".

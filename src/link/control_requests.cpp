@@ -18,6 +18,9 @@
 #include "link/array_header.h"
 #include "map/map_queries.h"
 #include "map/map_sources.h"
+#include "record/program_list.h"
+#include "record/score.h"
+#include "record/score_json.h"
 #include "render/image.h"
 #include "sensor/sensor_output.h"
 #include "sim/read_particles.h"
@@ -28,11 +31,14 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kRequests[] = {"heights", "changed", "arrays", "frames", "particles", "image",
-                                     "info",    "reset",   "save",   "load",   "watch"};
+constexpr const char* kRequests[] = {"heights", "changed", "arrays",  "frames", "particles",
+                                     "image",   "info",    "reset",   "save",   "load",
+                                     "watch",   "order",   "progress"};
 /// Maximum number of values in an answer: a million numbers are 10 MB of JSON.
 constexpr double kMostCells = 1e6;
 constexpr std::size_t kMaxArrays = 1000;
+/// Maximum length of the steps of an order, which is a part of a line.
+constexpr std::size_t kLongestOrder = 1 << 20;
 
 /// Throws the error of a request: key, value, rule and remedy.
 [[noreturn]] void refuse(const std::string& key, const json& value, const std::string& rule,
@@ -48,11 +54,12 @@ double number_in(const std::string& key, const json& value, double least, double
   return value.get<double>();
 }
 
-/// Returns a text of reasonable length: names and paths.
-std::string text_in(const std::string& key, const json& value) {
+/// Returns a text of reasonable length; names and paths have at most 1000 bytes.
+std::string text_in(const std::string& key, const json& value, std::size_t longest = 1000) {
   if (!value.is_string() || value.get<std::string>().empty() ||
-      value.get<std::string>().size() > 1000)
-    refuse(key, value, "must be a text of 1 to 1000 bytes", "e.g. {\"" + key + "\": \"name\"}");
+      value.get<std::string>().size() > longest)
+    refuse(key, value, "must be a text of 1 to " + std::to_string(longest) + " bytes",
+           "e.g. {\"" + key.substr(key.rfind('/') + 1) + "\": \"name\"}");
   return value.get<std::string>();
 }
 
@@ -149,6 +156,9 @@ json ControlRequests::dispatch(const std::string& key, const json& what) {
   if (key == "particles") return particles(what);
   if (key == "image") return image(what);
   if (key == "watch") return watch(what);
+  if (key == "order") return order(what);
+  if (key == "progress") must_be_true(key, what);
+  if (key == "progress") return progress();
   if (key == "info" || key == "reset") must_be_true(key, what);
   if (key == "info") return info();
   if (key == "reset") return replaced([&] { simulation_.reset(); });
@@ -177,6 +187,35 @@ json ControlRequests::watch(const json& what) {
   for (std::size_t i = before; i < simulation_.outputs().size(); ++i)
     out[simulation_.outputs()[i].name] = simulation_.outputs()[i].unit;
   return out;
+}
+
+/// Answers {"machine": "name", "steps": "<dig>...</dig>", "now": true}.
+json ControlRequests::order(const json& what) {
+  if (!what.is_object() || !what.contains("machine") || !what.contains("steps"))
+    refuse("order", what, "must be an object with machine and steps",
+           R"({"machine": "name", "steps": "<wait><duration_s>1</duration_s></wait>"})");
+  for (const auto& [key, value] : what.items())
+    if (key != "machine" && key != "steps" && key != "now")
+      refuse("order/" + key, value, "is none of machine, steps, now",
+             suggestion(key, {"machine", "steps", "now"}));
+  if (what.contains("now") && !what["now"].is_boolean())
+    refuse("order/now", what["now"], "must be true or false", "true stops the running program");
+  simulation_.order(text_in("order/machine", what["machine"]),
+                    text_in("order/steps", what["steps"], kLongestOrder), what.value("now", false));
+  return {{"time", simulation_.time()}};
+}
+
+/// Answers with the programs of all machines and the score up to now.
+json ControlRequests::progress() const {
+  const session::Session& session = simulation_.session();
+  json programs = record::program_list(session, "running");
+  for (json& one : programs)
+    one["phase"] = session.phase(
+        simulation_.world().description().machine_index(one["machine"].get<std::string>()));
+  return {{"time", simulation_.time()},
+          {"programs", programs},
+          {"score",
+           record::score_json(record::measure_score(session), simulation_.world().description())}};
 }
 
 /// Puts the simulation into another state by `load`. If that throws, the state and the map stay.

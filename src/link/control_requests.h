@@ -29,8 +29,8 @@ struct ControlServices {
 /// Answers requests of a controller (docs/reference/control_protocol.md).
 ///
 /// A request is a JSON object with one key: "info", "heights", "changed", "arrays", "frames",
-/// "particles", "image", "reset", "save", "load" or "watch". Simulated time does not advance while
-/// a request is answered.
+/// "particles", "image", "reset", "save", "load", "watch", "order" or "progress". Simulated time
+/// does not advance while a request is answered.
 ///
 /// The requests "heights" and "changed" use a map that this class makes at its construction and
 /// updates at each such request.
@@ -74,6 +74,10 @@ class ControlRequests {
   nlohmann::json info() const;
   /// Answers "watch": adds outputs for a link, and returns their names and units.
   nlohmann::json watch(const nlohmann::json& what);
+  /// Answers "order": gives a machine a new program.
+  nlohmann::json order(const nlohmann::json& what);
+  /// Answers "progress": what programs have done and do, and the score of the job so far.
+  nlohmann::json progress() const;
   /// Answers "save": writes the state of the simulation to a file.
   nlohmann::json save(const nlohmann::json& what) const;
   /// Replaces the state of the simulation by calling `load`, starts a new map, and returns the

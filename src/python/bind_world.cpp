@@ -259,6 +259,17 @@ void bind_world(nb::module_& module) {
       .def("step", &step, nb::arg("n") = 1)
       .def("reset", &reset, nb::arg("seed") = nb::none())
       .def("set", &set, nb::arg("input"), nb::arg("value"))
+      .def(
+          "order",
+          [](Runner& r, const std::string& machine, const std::string& steps, bool now) {
+            {
+              const Runner::Use use(r);
+              const nb::gil_scoped_release unlocked;
+              r.session().order(machine, steps, now);
+            }
+            log_messages();
+          },
+          nb::arg("machine"), nb::arg("steps"), nb::arg("now") = false)
       .def("get", &get, nb::arg("output"))
       .def("__getitem__", &get)
       .def("__setitem__", &set)

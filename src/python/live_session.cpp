@@ -3,9 +3,11 @@
 
 #include <utility>
 
+#include "control/step_kinds.h"
 #include "core/saved_state.h"
 #include "earthwork/pit_planner.h"
 #include "planner/map_path_planner.h"
+#include "scene_io/ordered_program.h"
 #include "sensor/make_sensors.h"
 
 namespace navvy::python {
@@ -27,7 +29,8 @@ LiveSession::LiveSession(scene::Scene scene, const Options& options) : device_(o
   // Samplers are added before any state is loaded, as a state contains theirs.
   session_ = std::make_unique<session::Session>(
       std::move(scene), device_,
-      control::Planners{planner::path_planners(), earthwork::job_planners()});
+      control::Planners{planner::path_planners(), earthwork::job_planners(),
+                        scene_io::ordered_program_reader(control::step_kinds())});
   for (std::unique_ptr<sim::Sampler>& one : sensor::make_sensors(session_->world()))
     session_->add(std::move(one));
   for (const std::string& link : options.watch) session_->watch(link);

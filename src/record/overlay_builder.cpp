@@ -209,7 +209,11 @@ void OverlayBuilder::add_person(int machine, FrameOverlay& out) const {
   add_line(out, std::move(head), kOrange, 3, true);
 }
 
+/// Draws nothing for a machine with an ordered program, as the scene's places are no longer its
+/// aims.
 void OverlayBuilder::add_stakes(int machine, FrameOverlay& out) const {
+  for (const session::ProgramReport& report : session_.programs())
+    if (report.machine == machine && report.orders > 0) return;
   const scene::Program& program =
       session_.world().description().machines[static_cast<std::size_t>(machine)].program;
   const double height = std::clamp(0.1 * size_[static_cast<std::size_t>(machine)], 0.2, 1.0);
@@ -222,10 +226,22 @@ void OverlayBuilder::add_stakes(int machine, FrameOverlay& out) const {
     }
 }
 
+namespace {
+
+/// Returns the time at which the present program of a report began [s].
+double begin_of(const session::ProgramReport& report) {
+  double out = 0;
+  for (const control::StepReport& one : report.list)
+    if (one.step == 1) out = one.start;
+  return out;
+}
+
+}  // namespace
+
 void OverlayBuilder::add_paths(FrameOverlay& out) const {
   for (const session::ProgramReport& report : session_.programs()) {
-    // Only the last plan is being followed.
-    if (report.paths.empty()) continue;
+    // Only the last plan is being followed, unless an order has replaced its program since.
+    if (report.paths.empty() || report.paths.back().time < begin_of(report)) continue;
     std::vector<Vec3> points;
     const control::Path& path = report.paths.back().path;
     const int pieces = static_cast<int>(std::ceil(path.length() / 0.25));

@@ -53,6 +53,7 @@ json program_list(const session::Session& session, const std::string& status) {
         {"reason", last["reason"]},
         {"time_s", last["end_s"]},
         {"place_m", last["place_m"]}};
+    if (report.orders > 0) entry["orders"] = report.orders;
     if (report.by_inputs()) entry["state"] = "inputs", entry["reason"] = "inputs drive the machine";
     entry["step_list"] = std::move(steps);
     out.push_back(std::move(entry));

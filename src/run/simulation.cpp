@@ -99,7 +99,8 @@ struct Simulation::State {
 std::unique_ptr<session::Session> Simulation::State::make_session(scene::Scene scene) const {
   auto out = std::make_unique<session::Session>(
       std::move(scene), *device,
-      control::Planners{planner::path_planners(), earthwork::job_planners()}, options.make_engine);
+      control::Planners{planner::path_planners(), earthwork::job_planners(), options.read_program},
+      options.make_engine);
   for (std::unique_ptr<sim::Sampler>& one : sensor::make_sensors(out->world()))
     out->add(std::move(one));
   if (options.set_up) options.set_up(*out);
@@ -390,6 +391,10 @@ void Simulation::watch(const std::string& link) {
   state_->session->watch(link);
   // Kept for a session that another seed makes.
   state_->options.watch.push_back(link);
+}
+
+void Simulation::order(const std::string& machine, const std::string& steps, bool now) {
+  state_->session->order(machine, steps, now);
 }
 
 heightfield::TerrainView Simulation::heights() const {

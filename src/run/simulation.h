@@ -141,6 +141,9 @@ class Simulation {
   /// Returns the current value of the output called `output`. @throws InputError for an unknown
   /// output.
   double get(const std::string& output) const { return get(this->output(output)); }
+  /// Gives a machine a new program (session::Session::order). @throws InputError as that function
+  /// does, and without SimulationOptions::read_program.
+  void order(const std::string& machine, const std::string& steps, bool now = false);
   /// Adds outputs for the pose and the velocities of a link, given as "machine/link". @throws
   /// InputError for an unknown link.
   void watch(const std::string& link);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "control/planners.h"
 #include "record/particle_record.h"
 #include "record/picture_format.h"
 #include "vehicle/physics_engine_factory.h"
@@ -84,6 +85,9 @@ struct SimulationOptions {
   /// Links, given as "machine/link", whose pose and velocities are added to the outputs
   /// (sim::World::watch).
   std::vector<std::string> watch;
+  /// Function that reads programs for Simulation::order, usually scene_io::ordered_program_reader;
+  /// empty: none can be ordered.
+  control::ReadProgram read_program;
   /// True to record the energy balance of the soil (`--energy`), which makes the soil up to three
   /// times slower.
   bool soil_energy = false;

@@ -44,9 +44,9 @@ heightfield::TerrainView SurfaceAroundMachine::mapped() const {
 OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
                                  const Programs& programs, const control::Planners& planners)
     : world_(world),
+      planners_(planners),
       machine_(world.machines().at(machine)),
-      op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(),
-          planners) {
+      op_(make_operator(placed(world, machine).program)) {
   const scene::Machine& description = machine_.description();
   // A machine digs with its first bucket and tips its first bed. Others are passive.
   if (!description.buckets.empty()) bucket_.emplace(machine_, description.buckets[0]);
@@ -62,6 +62,10 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
   seen_.surface = around_.get();
   seen_.programs = &programs;
   connect_gauges();
+}
+
+control::Operator OperatedMachine::make_operator(const scene::Program& program) const {
+  return {machine_.description(), program, machine_.name(), planners_};
 }
 
 /// Gives the operator what a cab shows on demand. Handles are copied, as this object may move.
@@ -166,7 +170,7 @@ void OperatedMachine::note_cycle(std::vector<Cycle>& cycles) {
 }
 
 bool OperatedMachine::take() {
-  // For good, as a program that went on later would find its machine somewhere else.
+  // Until an order, as a program that went on later would find its machine somewhere else.
   if (std::exchange(taken_, true)) return false;
   // Joints that the program never commanded keep their command.
   send(op_.stop());
@@ -176,8 +180,62 @@ bool OperatedMachine::take() {
   return true;
 }
 
+control::Command OperatedMachine::stand() const {
+  const scene::Machine& machine = machine_.description();
+  control::Command out;
+  out.joints.resize(machine.joints.size());
+  for (const std::string& name :
+       {machine.arm.swing, machine.arm.boom, machine.arm.stick, machine.arm.bucket})
+    if (const int joint = machine.joint_index(name); joint >= 0)
+      out.joints[static_cast<std::size_t>(joint)] =
+          vehicle::JointInput{vehicle::JointMode::kVelocity, 0};
+  if (machine.has_drive) out.drive = vehicle::DriveInput{0, 0, true};
+  return out;
+}
+
+control::ProgramProgress OperatedMachine::progress() const {
+  control::ProgramProgress out = op_.progress();
+  const auto done = static_cast<int>(
+      std::count_if(reports_before_.begin(), reports_before_.end(),
+                    [](const auto& one) { return one.state == control::StepState::kDone; }));
+  out.done += done;
+  out.steps += done;
+  return out;
+}
+
+void OperatedMachine::order(const std::string& steps, const scene::Program& program) {
+  control::Operator next = make_operator(program);
+  ProgramReport before = report();
+  if (busy())
+    send(op_.stop());
+  else if (taken_ || op_.progress().steps == 0)
+    send(stand());
+  if (!before.list.empty() && before.last().state == control::StepState::kRunning) {
+    before.list.back().state = control::StepState::kReplaced;
+    before.list.back().reason = "another program was ordered";
+  }
+  // The program of a machine without one has a report of no step.
+  std::erase_if(before.list, [](const control::StepReport& one) { return one.step == 0; });
+  reports_before_ = std::move(before.list);
+  paths_before_ = std::move(before.paths);
+  op_ = std::move(next);
+  steps_ = steps;
+  ++orders_;
+  taken_ = false;
+  open_.reset();
+  open_tip_.reset();
+}
+
 ProgramReport OperatedMachine::report() const {
-  ProgramReport out{index(), op_.progress().steps, taken_, op_.reports(), op_.paths()};
+  ProgramReport out;
+  out.machine = index();
+  out.steps = op_.progress().steps;
+  out.orders = static_cast<int>(orders_);
+  out.taken = taken_;
+  out.list = reports_before_;
+  out.list.insert(out.list.end(), op_.reports().begin(), op_.reports().end());
+  out.paths = paths_before_;
+  out.paths.insert(out.paths.end(), op_.paths().begin(), op_.paths().end());
   // The last report of a program that has ended is complete.
   if (op_.ended()) return out;
   // The stored observation is a step old, and empty after a snapshot was loaded.
@@ -196,9 +254,38 @@ void OperatedMachine::visit(Archive& a) {
   const auto own = [&](const auto& open) { return !open || open->machine == machine_.index(); };
   a.require(own(open_), "open_cycle", "refers to another machine");
   a.require(own(open_tip_), "open_tip", "refers to another machine");
-  // The operator's state no longer changes once its machine is taken.
+  // The operator's state no longer changes while inputs drive its machine.
   a("taken", taken_);
+  visit_orders(a);
   a("operator", op_);
+}
+
+void OperatedMachine::visit_orders(Archive& a) {
+  std::int64_t orders = orders_;
+  a.unhashed("states of runs without orders keep their hashes", [&] { a("orders", orders); });
+  a.require(orders >= 0, "orders", "is negative");
+  std::string steps = steps_;
+  if (orders > 0) {
+    a("ordered", steps);
+    a("reports_before", reports_before_);
+    a("paths_before", paths_before_);
+  }
+  if (!a.loading()) return;
+  if (orders == 0) {
+    steps.clear();
+    reports_before_.clear();
+    paths_before_.clear();
+  }
+  // Every operator loads its state into a new one.
+  if (steps != steps_) {
+    a.require(planners_.read_program || orders == 0, "ordered",
+              "no program can be ordered here, but the snapshot holds one");
+    op_ = make_operator(orders == 0 ? placed(world_, index()).program
+                                    : planners_.read_program(steps, machine_.description(),
+                                                             world_.description().ground));
+  }
+  steps_ = std::move(steps);
+  orders_ = orders;
 }
 
 }  // namespace navvy::session

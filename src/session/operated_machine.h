@@ -2,6 +2,7 @@
 // A machine whose program an operator carries out. Private to the session.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -69,10 +70,11 @@ class OperatedMachine {
   /// Progress of all programs at the beginning of the step, keyed by machine name.
   using Programs = std::map<std::string, control::ProgramProgress>;
 
-  /// Makes the operator of the machine with the index `machine` in the scene. `surface` and
-  /// `programs` are shared by all operators; they and `world` must outlive this object. `planners`
-  /// makes the planners of paths and of jobs that steps of the program need. @throws InputError if
-  /// the machine lacks a part that the program needs, or if a planner that it needs cannot be made.
+  /// Makes the operator of the machine with the index `machine` in the scene. `surface`, `programs`
+  /// and `planners` are shared by all operators; they and `world` must outlive this object.
+  /// `planners` makes the planners of paths and of jobs that steps of the program need. @throws
+  /// InputError if the machine lacks a part that the program needs, or if a planner that it needs
+  /// cannot be made.
   OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
                   const Programs& programs, const control::Planners& planners);
 
@@ -87,22 +89,40 @@ class OperatedMachine {
   bool taken() const { return taken_; }
   /// Returns true while the program commands the machine and has not ended.
   bool busy() const { return !taken_ && !op_.ended(); }
+  /// Returns the progress of the program. Steps that programs completed which orders have replaced
+  /// count, so that a machine which waits for them misses none.
+  control::ProgramProgress progress() const;
+  /// Returns true if the program was ordered, so that another one may follow it.
+  bool ordered() const { return orders_ > 0; }
+  /// Returns the terrain as the operator sees it.
+  const control::SurfaceView& surface() const { return *around_; }
 
   /// Lets the operator observe and command the machine for one step. Appends a digging cycle or a
   /// bed tip that ends in this step to `cycles` or `tips`. Does nothing after `take`.
   void step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips);
-  /// Permanently stops the program, because inputs drive the machine from now on, and stops the
-  /// joints and the drive that the program has commanded. Returns true at the first call and false
-  /// afterwards.
+  /// Stops the program until the next order, because inputs drive the machine from now on, and
+  /// stops the joints and the drive that the program has commanded. Returns true at the first call
+  /// and false afterwards.
   bool take();
-  /// Returns the report of the program. If the running step needs the surface for its measurements,
-  /// that costs one pass over the particles.
+  /// Replaces the program by `program`, which was read from `steps`. Stops what a program that
+  /// still runs has commanded; after inputs, and for a first program, the arm stops and the drive
+  /// brakes. Ends what `take` began. @throws InputError as the constructor does; nothing changes
+  /// then.
+  void order(const std::string& steps, const scene::Program& program);
+  /// Returns the report of the program, after the steps of programs that it replaced. If the
+  /// running step needs the surface for its measurements, that costs one pass over the particles.
   ProgramReport report() const;
 
   /// Saves or loads all state that affects later commands and reports.
   void visit(Archive& a);
 
  private:
+  /// Returns commands that stop the arm and brake the drive.
+  control::Command stand() const;
+  /// Returns an operator for a program of the machine.
+  control::Operator make_operator(const scene::Program& program) const;
+  /// Saves or loads the orders, and makes the operator of the loaded one.
+  void visit_orders(Archive& a);
   /// Fills in what an operator observes: joint states, pose and stability, and the force on the
   /// bucket and its payload.
   void observe(control::Observation& seen) const;
@@ -116,8 +136,9 @@ class OperatedMachine {
   /// Updates the current bed tip, and appends it to `tips` when it ends.
   void note_tip(std::vector<BedTip>& tips);
 
-  // World that the machine is in.
+  // World that the machine is in, and makers of planners.
   sim::World& world_;
+  const control::Planners& planners_;
   // The operated machine.
   sim::MachineHandle machine_;
   // All joints of the machine, in the order of its description.
@@ -138,8 +159,14 @@ class OperatedMachine {
   std::optional<Cycle> open_;
   // Bed tip in progress; empty if there is none.
   std::optional<BedTip> open_tip_;
-  // True after `take` has been called.
+  // True after `take` has been called, until the next order.
   bool taken_ = false;
+  // Number of orders, and the steps of the last one as text; empty: the scene's program runs.
+  std::int64_t orders_ = 0;
+  std::string steps_;
+  // Reports and paths of the programs that orders have replaced.
+  std::vector<control::StepReport> reports_before_;
+  std::vector<control::PlannedPath> paths_before_;
 };
 
 }  // namespace navvy::session

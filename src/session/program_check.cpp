@@ -110,24 +110,68 @@ std::vector<char> staying_bodies(const scene::Scene& world, std::size_t machine)
   return out;
 }
 
-/// Returns an error for each step whose receiver is no other machine with a bed.
-std::vector<Fault> check_receivers(const scene::Scene& world, const scene::MachineInWorld& placed) {
-  std::vector<std::string> known;
-  for (const scene::MachineInWorld& other : world.machines)
-    if (&other != &placed && !other.machine.beds.empty()) known.push_back(other.name);
-  std::vector<Fault> faults;
-  for (std::size_t i = 0; i < placed.program.steps.size(); ++i) {
-    const std::string into = control::step_of(placed.program.steps[i]).receiver();
-    if (into.empty() || std::find(known.begin(), known.end(), into) != known.end()) continue;
-    const int line = i < placed.program.lines.size() ? placed.program.lines[i] : 0;
-    faults.push_back({Fault::Severity::kError, world.file, line,
-                      placed.name + "/navvy:program/step " + std::to_string(i + 1) + "/" +
-                          placed.program.steps[i]->element() + "/into",
-                      into, "must be the name of another machine with a bed in this world",
-                      suggestion(into, known)});
+/// Checks of the steps of one machine's program that name something in the world.
+class NameCheck {
+ public:
+  /// `file` contains the program; it is empty for one that was ordered.
+  NameCheck(const scene::Scene& world, std::size_t machine, const scene::Program& program,
+            std::string file)
+      : world_(world), machine_(machine), program_(program), file_(std::move(file)) {}
+
+  /// Returns an error for each step whose receiver is no other machine with a bed.
+  std::vector<Fault> receivers() const {
+    std::vector<Fault> faults;
+    const std::vector<std::string> known =
+        others([](const scene::MachineInWorld& one) { return !one.machine.beds.empty(); });
+    for (std::size_t i = 0; i < program_.steps.size(); ++i)
+      if (const std::string into = control::step_of(program_.steps[i]).receiver(); !into.empty())
+        require(i, "into", into, known,
+                "must be the name of another machine with a bed in this world", faults);
+    return faults;
   }
-  return faults;
-}
+  /// Returns an error for each step that waits for no other machine, or opens no hitch of this one.
+  std::vector<Fault> waits_and_hitches() const {
+    std::vector<Fault> faults;
+    const std::vector<std::string> known =
+        others([](const scene::MachineInWorld&) { return true; });
+    std::vector<std::string> hitches;
+    for (const scene::Hitch& one : world_.hitches)
+      if (one.parent == static_cast<int>(machine_) || one.child == static_cast<int>(machine_))
+        hitches.push_back(one.name);
+    for (std::size_t i = 0; i < program_.steps.size(); ++i) {
+      if (const std::optional<scene::Waiting> wait = program_.steps[i]->waits_for())
+        require(i, "machine", wait->machine, known, "must be the name of another machine", faults);
+      if (const std::optional<std::string> hitch = program_.steps[i]->opens())
+        require(i, "hitch", *hitch, hitches, "must be the name of a hitch of this machine", faults);
+    }
+    return faults;
+  }
+
+ private:
+  std::vector<std::string> others(bool (*wanted)(const scene::MachineInWorld&)) const {
+    std::vector<std::string> out;
+    for (std::size_t m = 0; m < world_.machines.size(); ++m)
+      if (m != machine_ && wanted(world_.machines[m])) out.push_back(world_.machines[m].name);
+    return out;
+  }
+  /// Adds a fault if a step names something that is not known.
+  void require(std::size_t i, const std::string& element, const std::string& name,
+               const std::vector<std::string>& known, const std::string& rule,
+               std::vector<Fault>& faults) const {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    const int line = i < program_.lines.size() ? program_.lines[i] : 0;
+    faults.push_back({Fault::Severity::kError, file_, line,
+                      world_.machines[machine_].name + "/navvy:program/step " +
+                          std::to_string(i + 1) + "/" + program_.steps[i]->element() + "/" +
+                          element,
+                      name, rule, suggestion(name, known)});
+  }
+
+  const scene::Scene& world_;
+  const std::size_t machine_;
+  const scene::Program& program_;
+  const std::string file_;
+};
 
 }  // namespace
 
@@ -144,11 +188,24 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
     for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), around,
                                              world.file, placed.name, planners, notes))
       faults.push_back(std::move(fault));
-    for (Fault& fault : check_receivers(world, placed)) faults.push_back(std::move(fault));
+    for (Fault& fault : NameCheck(world, m, placed.program, world.file).receivers())
+      faults.push_back(std::move(fault));
   }
   BedCheck beds(world, surface, X_WB);
   for (std::size_t m = 0; m < world.machines.size(); ++m) beds.look(m);
   for (Fault& fault : beds.faults) faults.push_back(std::move(fault));
+  return faults;
+}
+
+std::vector<Fault> check_program(const scene::Scene& world, std::size_t machine,
+                                 const scene::Program& program, const control::SurfaceView& surface,
+                                 const Pose& X_WB, const control::Planners& planners) {
+  const scene::MachineInWorld& placed = world.machines.at(machine);
+  std::vector<Fault> faults = control::check_reach(placed.machine, program, X_WB, surface, "order",
+                                                   placed.name, planners, nullptr);
+  const NameCheck names(world, machine, program, "order");
+  for (const std::vector<Fault>& each : {names.receivers(), names.waits_and_hitches()})
+    faults.insert(faults.end(), each.begin(), each.end());
   return faults;
 }
 

@@ -89,6 +89,8 @@ struct ProgramReport {
   std::vector<control::StepReport> list;
   /// Planned paths, in the order in which they were planned.
   std::vector<control::PlannedPath> paths;
+  /// Number of programs that were ordered so far (Session::order). The last one is the program.
+  int orders = 0;
 
   /// Returns the last entry of `list`: the running step, or the step with which the program ended.
   const control::StepReport& last() const { return list.back(); }

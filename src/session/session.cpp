@@ -17,6 +17,7 @@
 #include "heightfield/design_surface.h"
 #include "session/bucket_gauge.h"
 #include "session/operated_machine.h"
+#include "session/order_checks.h"
 #include "session/program_check.h"
 #include "session/uncontrolled_machine.h"
 #include "sim/snapshot.h"
@@ -32,10 +33,11 @@ constexpr double kLongestRest = 6;
 
 // The world comes first: all other members hold handles into it.
 struct Session::State {
-  State(scene::Scene description, device::Device& device,
+  State(scene::Scene description, device::Device& device, control::Planners planners_in,
         const vehicle::PhysicsEngineFactory& make_engine)
       : world(std::move(description), device, make_engine),
         surface(world),
+        planners(std::move(planners_in)),
         device_name(device.info().name),
         // The number and order of tools never change.
         tools(world.machines().tools()),
@@ -50,13 +52,15 @@ struct Session::State {
   // Members are constructed in this order and refer to those above them.
   sim::World world;
   SeenSurface surface;
+  const control::Planners planners;
   std::string device_name;
   /// All tools of the world.
   std::vector<sim::ToolHandle> tools;
   /// The buckets of all machines.
   std::vector<BucketGauge> buckets;
   std::optional<heightfield::DesignSurface> design;
-  /// Machines with a program, in the order of the scene.
+  /// Machines with a program in the scene, in its order, then those that got their first one by an
+  /// order.
   std::vector<OperatedMachine> operated;
   /// All machines that can tip over; each is watched while no program drives it.
   std::vector<UncontrolledMachine> uncontrolled_machines;
@@ -81,6 +85,9 @@ struct Session::State {
 
   /// Returns the machine with its operator; null if it has no program.
   const OperatedMachine* operated_by_program(int machine) const;
+  bool has_program(int machine) const;
+  void operate(int machine);
+  void visit_operated(Archive& a);
   void watch_uncontrolled_machines();
   void watch_border();
   void take_over(int machine);
@@ -184,13 +191,46 @@ void Session::State::take_over(int machine) {
                " s: inputs drive it");
 }
 
+bool Session::State::has_program(int machine) const {
+  return !world.description().machines[static_cast<std::size_t>(machine)].program.steps.empty();
+}
+
+/// Gives a machine without one an operator.
+void Session::State::operate(int machine) {
+  operated.emplace_back(world, machine, surface, programs, planners);
+}
+
+/// Visits the operators, and those that orders have added.
+void Session::State::visit_operated(Archive& a) {
+  std::size_t of_scene = 0;
+  for (int m = 0; m < world.machines().count(); ++m) of_scene += has_program(m) ? 1 : 0;
+  // Programs may have been added to the scene since.
+  a.constant("programs", of_scene,
+             "the snapshot and the scene have different numbers of programs; use the scene that "
+             "the snapshot was made with");
+  std::vector<std::int64_t> added;
+  for (std::size_t i = of_scene; i < operated.size(); ++i) added.push_back(operated[i].index());
+  a.unhashed("states of runs without orders keep their hashes", [&] { a("added", added); });
+  if (a.loading()) {
+    programs.clear();
+    while (operated.size() > of_scene) operated.pop_back();
+    for (const std::int64_t m : added) {
+      a.require(m >= 0 && m < world.machines().count() &&
+                    operated_by_program(static_cast<int>(m)) == nullptr,
+                "added", "names no machine without a program");
+      operate(static_cast<int>(m));
+    }
+  }
+  for (std::size_t i = 0; i < operated.size(); ++i) a.item(i, [&] { operated[i].visit(a); });
+}
+
 /// Visits all state beside the world: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
   // Version 3 added machines taken by inputs; 4 operators; 5 their reports; 6 peaks of draft and
   // uplift; 7 the watch over machines that no program drives; 8 loads of tip and dump, collisions;
   // 9 overlaps, forbidden events, places of machines that no program drives; 10 places of cycles,
-  // distances driven.
-  a.section("session", 10, [&] {
+  // distances driven; 11 orders.
+  a.section("session", 11, [&] {
     a("cycles", cycles);
     a("tips", tips);
     // Reports name machines by their index.
@@ -220,11 +260,7 @@ void Session::State::visit(Archive& a) {
     a.require(std::all_of(overlaps.overlaps().begin(), overlaps.overlaps().end(), both_known),
               "overlaps", "refers to a machine or link that the scene does not have");
     a("idle", idle);
-    // Programs may have been added to the scene since.
-    a.constant("programs", operated.size(),
-               "the snapshot and the scene have different numbers of programs; use the scene that "
-               "the snapshot was made with");
-    for (std::size_t i = 0; i < operated.size(); ++i) a.item(i, [&] { operated[i].visit(a); });
+    visit_operated(a);
     for (std::size_t i = 0; i < uncontrolled_machines.size(); ++i)
       a.item(i, [&] { uncontrolled_machines[i].visit(a); });
   });
@@ -233,7 +269,7 @@ void Session::State::visit(Archive& a) {
 Session::Session(scene::Scene description, device::Device& device,
                  const control::Planners& planners,
                  const vehicle::PhysicsEngineFactory& make_engine)
-    : state_(std::make_unique<State>(std::move(description), device, make_engine)) {
+    : state_(std::make_unique<State>(std::move(description), device, planners, make_engine)) {
   State& s = *state_;
   std::vector<Pose> X_WB;
   // The reach of a machine depends on where it stands on this ground.
@@ -260,8 +296,7 @@ Session::Session(scene::Scene description, device::Device& device,
   for (int m = 0; m < s.world.machines().count(); ++m)
     if (s.world.machines().at(m).stability().free) s.uncontrolled_machines.emplace_back(s.world, m);
   for (int m = 0; m < s.world.machines().count(); ++m)
-    if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
-      s.operated.emplace_back(s.world, m, s.surface, s.programs, planners);
+    if (s.has_program(m)) s.operate(m);
 }
 
 Session::~Session() = default;
@@ -273,11 +308,11 @@ void Session::step() {
     const Lap lap(s.control_time);
     // Operators that wait for others see the programs as they were at the start of the step, so
     // their order does not matter.
-    for (const OperatedMachine& one : s.operated) s.programs[one.name()] = one.op().progress();
-    // A machine that inputs drive never ends by itself: its controller ends the run.
+    for (const OperatedMachine& one : s.operated) s.programs[one.name()] = one.progress();
+    // A machine that inputs or orders drive never ends by itself: its controller ends the run.
     bool busy = false;
     for (OperatedMachine& one : s.operated) {
-      busy = busy || one.taken() || one.busy();
+      busy = busy || one.taken() || one.ordered() || one.busy();
       one.step(s.cycles, s.tips);
     }
     s.watch_uncontrolled_machines();
@@ -339,6 +374,39 @@ void Session::command(const sim::MachineHandle& machine, const vehicle::BaseInpu
   state_->world.commands().require_valid(machine, input);
   state_->take_over(machine.index());
   state_->world.commands().set(machine, input);
+}
+
+void Session::order(const std::string& machine, const std::string& steps, bool now) {
+  State& s = *state_;
+  const int m = machine_of_order(s.world.description(), machine);
+  const OperatedMachine* present = s.operated_by_program(m);
+  if (present != nullptr && !now) require_idle(*present);
+  const auto watched =
+      std::find_if(s.uncontrolled_machines.begin(), s.uncontrolled_machines.end(),
+                   [&](const UncontrolledMachine& one) { return one.index() == m; });
+  if (watched != s.uncontrolled_machines.end()) require_upright(machine, *watched);
+  const scene::Program program =
+      program_of_order(s.world, m, steps, SurfaceAroundMachine(s.surface, s.world, m), s.planners);
+  // The operator is made last, so that a refused order leaves none.
+  if (present == nullptr) s.operate(m);
+  const auto one = std::find_if(s.operated.begin(), s.operated.end(),
+                                [&](const OperatedMachine& each) { return each.index() == m; });
+  try {
+    one->order(steps, program);
+  } catch (...) {
+    if (present == nullptr) s.operated.pop_back();
+    throw;
+  }
+  if (watched != s.uncontrolled_machines.end()) watched->hand_over();
+  log_info("'" + machine + "' has " + std::to_string(program.steps.size()) +
+           (program.steps.size() == 1 ? " step" : " steps") + " ordered at " +
+           std::to_string(s.world.time()) + " s");
+}
+
+void Session::reshape(const std::function<void(heightfield::Ground&)>& change) {
+  state_->world.reshape(change);
+  // Checks of the programs have looked at the ground before.
+  state_->surface.forget();
 }
 
 void Session::add(std::unique_ptr<sim::Sampler> sampler) { state_->world.add(std::move(sampler)); }

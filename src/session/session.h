@@ -3,6 +3,7 @@
 // unit.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,8 +20,9 @@
 #include "sim/world.h"
 
 namespace navvy::heightfield {
+class Ground;
 struct DesignSurface;
-}
+}  // namespace navvy::heightfield
 
 namespace navvy::session {
 
@@ -52,8 +54,8 @@ class Session {
   /// Returns true if the run is over. This is the case if the scene's duration has elapsed, or if
   /// every program has ended (successfully or not), the settling time has passed since, and no
   /// loose soil is active; active soil delays the end by six settling times at most. A program that
-  /// inputs have taken over never counts as ended, and without programs only the duration ends the
-  /// run. A forbidden event ends the run at once.
+  /// inputs have taken over, or that was ordered, never counts as ended, and without programs only
+  /// the duration ends the run. A forbidden event ends the run at once.
   bool done() const;
   /// Returns true if every program is done or has been taken over by inputs, and no machine has
   /// fallen, left the site or been pushed away without a program.
@@ -83,6 +85,17 @@ class Session {
   /// Commands the target pose of a kinematic machine. Takes over the machine and throws as `set`
   /// does.
   void command(const sim::MachineHandle& machine, const vehicle::BaseInput& input);
+  /// Gives a machine a new program in place of the one that it has, if any. It begins with the next
+  /// step, whoever drove the machine before; afterwards the run ends no longer because all programs
+  /// have ended. `steps` contains the elements of the steps, as inside <navvy:program>. With `now`,
+  /// a program that still runs is stopped; without, it refuses the order.
+  /// @throws InputError if no program can be ordered here (control::Planners::read_program), for a
+  /// machine that does not exist or is busy, and for steps that are faulty or out of reach; nothing
+  /// changes then.
+  void order(const std::string& machine, const std::string& steps, bool now = false);
+  /// Changes the ground columns before the first step (sim::World::reshape). @throws Error as that
+  /// function does.
+  void reshape(const std::function<void(heightfield::Ground&)>& change);
   /// Adds a sampler, such as a sensor. It takes its first sample immediately and then samples at
   /// its own rate. @throws InputError as sim::World::add does.
   void add(std::unique_ptr<sim::Sampler> sampler);

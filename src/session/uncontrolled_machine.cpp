@@ -44,6 +44,12 @@ UncontrolledMachine::UncontrolledMachine(const sim::World& world, int machine)
     wheels_.push_back(machine_.wheel(static_cast<int>(w)));
 }
 
+void UncontrolledMachine::hand_over() {
+  if (fall_ &&
+      (fall_->state == control::StepState::kMoved || fall_->state == control::StepState::kOffSite))
+    fall_.reset();
+}
+
 void UncontrolledMachine::look(bool by_inputs) {
   const bool moved = fall_ && fall_->state == control::StepState::kMoved;
   if (fall_ && !moved) return;

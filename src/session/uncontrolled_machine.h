@@ -40,6 +40,9 @@ class UncontrolledMachine {
   void look(bool by_inputs);
   /// Records that inputs drive the machine from now on, so that it may move.
   void take() { driven_ = true; }
+  /// Records that a program controls the machine from now on. A report that it was pushed away or
+  /// left the site is over then.
+  void hand_over();
   /// Returns the last report of the machine, with state (kTipped, kBuried, kOffSite or kMoved),
   /// time and position; empty if there is nothing to report. Its step number is 0, because it
   /// belongs to no step of a program.

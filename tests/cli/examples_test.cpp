@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -47,6 +48,29 @@ TEST_F(Examples, ARobotDrivesAroundAMovedBoxByItsScanAlone) {
     // The scanner stands 0.14 m before the middle of a robot that is 0.36 m wide.
     EXPECT_GE(nearest, 0.25) << crate;
   }
+}
+
+TEST_F(Examples, AProgramOrdersTwoDigsOneAfterTheOther) {
+  ASSERT_EQ(example("order_digs.py", {"--navvy", NAVVY_PROGRAM, "--depth", "0.3", "--out", out()}),
+            0)
+      << text_of(directory_ / "example_errors");
+  const std::string text = printed();
+  for (const char* part :
+       {"cell 3.65 0 1.85 0 is ordered", "cell 3.26 -2.19 1.57 -1.57 is ordered"})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  EXPECT_EQ(text.find("error"), std::string::npos) << text;
+  const nlohmann::json program = summary().at("programs").at(0);
+  EXPECT_EQ(program.at("orders"), 2);
+  EXPECT_EQ(program.at("state"), "done") << text;
+  // The scene's own program, and each order.
+  ASSERT_EQ(program.at("step_list").size(), 3u);
+  EXPECT_EQ(program.at("step_list")[0].at("state"), "replaced");
+  for (int i = 1; i < 3; ++i) {
+    const nlohmann::json& dig = program.at("step_list")[i];
+    EXPECT_EQ(dig.at("state"), "done") << text;
+    EXPECT_LT(dig.at("volume_left_m3"), 0.16 * dig.at("design_volume_m3").get<double>());
+  }
+  EXPECT_EQ(summary().at("mass_ledger").at("error_units"), 0);
 }
 
 TEST_F(Examples, AnotherProcessFollowsTheScansOfARun) {

@@ -83,9 +83,9 @@ struct Trial {
 
 TEST(StepState, HasADistinctNamePerState) {
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(StepState::kOffSite); ++i)
+  for (int i = 0; i <= static_cast<int>(StepState::kReplaced); ++i)
     names.insert(name_of(static_cast<StepState>(i)));
-  EXPECT_EQ(names.size(), 11u);
+  EXPECT_EQ(names.size(), 12u);
   EXPECT_FALSE(fell_short(StepState::kRunning));
   EXPECT_FALSE(fell_short(StepState::kDone));
   EXPECT_TRUE(fell_short(StepState::kBlocked));

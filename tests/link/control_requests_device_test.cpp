@@ -8,15 +8,27 @@
 #include <string>
 #include <vector>
 
+#include "control/step_kinds.h"
 #include "core/base64.h"
 #include "core/error.h"
 #include "run/scene.h"
+#include "scene_io/ordered_program.h"
 #include "sim/read_particles.h"
 
 namespace navvy::link {
 namespace {
 
 using nlohmann::json;
+
+/// Returns why a request is refused; empty if it is not.
+std::string refused(ControlRequests& requests, const json& line) {
+  try {
+    requests.answer(line);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
 
 TEST(ControlRequests, SendArraysWithStampShapeUnitAndFrame) {
   run::Simulation simulation(run::test::bucket_scene(2), run::test::with_height_grid());
@@ -98,35 +110,56 @@ TEST(ControlRequests, SendParticlesAsBytesBehindTheLine) {
                         8 * table.count()),
             0);
   // A refused request leaves no bytes and says what is known.
-  const auto refused = [&](const json& line) -> std::string {
-    try {
-      requests.answer(line);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(refused({{"particles", {"densty"}}}).find("did you mean 'density'?"),
+  EXPECT_NE(refused(requests, {{"particles", {"densty"}}}).find("did you mean 'density'?"),
             std::string::npos);
-  EXPECT_NE(refused({{"particles", 3}}).find("or true for all"), std::string::npos);
+  EXPECT_NE(refused(requests, {{"particles", 3}}).find("or true for all"), std::string::npos);
   EXPECT_TRUE(requests.bytes().empty());
 }
 
 TEST(ControlRequests, RefuseUnknownArraysWithTheNearestName) {
   run::Simulation simulation(run::test::bucket_scene(2), run::test::with_height_grid());
   ControlRequests requests(simulation, 50);
-  const auto refused = [&](const json& line) -> std::string {
-    try {
-      requests.answer(line);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(refused({{"arrays", {"bucket/hight_grid"}}}).find("bucket/height_grid"),
+  EXPECT_NE(refused(requests, {{"arrays", {"bucket/hight_grid"}}}).find("bucket/height_grid"),
             std::string::npos);
-  EXPECT_NE(refused({{"arrays", 3}}).find("list of at most 1000 names"), std::string::npos);
-  EXPECT_NE(refused({{"arrays", {7}}}).find("must be a text"), std::string::npos);
+  EXPECT_NE(refused(requests, {{"arrays", 3}}).find("list of at most 1000 names"),
+            std::string::npos);
+  EXPECT_NE(refused(requests, {{"arrays", {7}}}).find("must be a text"), std::string::npos);
+}
+
+TEST(ControlRequests, OrderProgramsAndReportTheirProgress) {
+  run::SimulationOptions options;
+  options.read_program = scene_io::ordered_program_reader(control::step_kinds());
+  run::Simulation simulation(run::test::bucket_scene(2), options);
+  ControlRequests requests(simulation, 50);
+  ASSERT_TRUE(ControlRequests::is_request(json{{"order", json::object()}}));
+  const std::string machine = simulation.world().machines().at(0).name();
+  simulation.step(5);
+  const auto order = [&](const json& what) { return refused(requests, {{"order", what}}); };
+  const std::string wait = "<wait><duration_s>0.1</duration_s></wait>";
+  EXPECT_NE(order({{"machine", machine}}).find("with machine and steps"), std::string::npos);
+  EXPECT_NE(order({{"machine", machine}, {"steps", wait}, {"when", 1}}).find("none of machine"),
+            std::string::npos);
+  EXPECT_NE(order({{"machine", machine}, {"steps", wait}, {"now", 1}}).find("true or false"),
+            std::string::npos);
+  EXPECT_NE(order({{"machine", machine}, {"steps", 5}}).find("must be a text"), std::string::npos);
+  EXPECT_NE(order({{"machine", "digger"}, {"steps", wait}}).find("no machine of this name"),
+            std::string::npos);
+  EXPECT_NE(refused(requests, {{"progress", 3}}).find("must be true"), std::string::npos);
+  const json answer =
+      requests.answer({{"order", {{"machine", machine}, {"steps", wait}, {"now", true}}}});
+  EXPECT_EQ(answer.at("order").at("time"), simulation.time());
+  simulation.step(2);
+  json now = requests.answer({{"progress", true}}).at("progress");
+  ASSERT_EQ(now.at("programs").size(), 1u);
+  EXPECT_EQ(now.at("programs")[0].at("machine"), machine);
+  EXPECT_EQ(now.at("programs")[0].at("orders"), 1);
+  EXPECT_EQ(now.at("programs")[0].at("state"), "running");
+  EXPECT_EQ(now.at("programs")[0].at("phase"), "wait");
+  EXPECT_TRUE(now.at("score").is_object());
+  while (simulation.time() < 0.3) simulation.step();
+  now = requests.answer({{"progress", true}}).at("progress");
+  EXPECT_EQ(now.at("programs")[0].at("state"), "done");
+  EXPECT_EQ(now.at("programs")[0].at("step_list").back().at("kind"), "wait");
 }
 
 TEST(ControlRequests, ResetReplacesTheStateOnce) {

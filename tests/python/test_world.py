@@ -116,6 +116,27 @@ class Channels(unittest.TestCase):
         self.assertNotEqual(world.phase("excavator"), "inputs")
 
 
+class Orders(unittest.TestCase):
+    def test_give_a_machine_a_new_program_that_snapshots_keep(self):
+        world = navvy.Session("trench")
+        wait = "<wait><duration_s>0.02</duration_s></wait>"
+        with self.assertRaisesRegex(navvy.InputError, "busy with step 1"):
+            world.step()
+            world.order("excavator", wait)
+        with self.assertRaisesRegex(navvy.InputError, "did you mean 'wait'"):
+            world.order("excavator", "<wiat/>", now=True)
+        world.order("excavator", wait, now=True)
+        world.step()
+        self.assertEqual(world.phase("excavator"), "wait")
+        copy = navvy.Session("trench")
+        copy.load(world.save())
+        for each in world, copy:
+            each.step(60)
+        self.assertEqual(copy.state_hash(), world.state_hash())
+        self.assertEqual(world.phase("excavator"), "idle")
+        self.assertFalse(world.done)
+
+
 class Arrays(unittest.TestCase):
     def setUp(self):
         self.world = navvy.Session(SCENE)
