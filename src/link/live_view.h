@@ -20,10 +20,10 @@ namespace navvy::link {
 
 /// Serves the live page of a simulation (docs/howto/view.md).
 ///
-/// As long as a page is open, a frame is taken about kRate times per second of wall time, between
-/// two steps; a frame that takes long makes them rarer, so that frames take at most kShare of the
-/// time. Sending is the work of other threads, and no subscriber is waited for. Without commands
-/// the run gives the same results as without a view. Not thread-safe.
+/// Takes a frame about kRate times per second of wall time, between two steps, as long as a page is
+/// open; a frame that takes long makes them rarer, so that frames take at most kShare of the time.
+/// Sending is the work of other threads, and no subscriber is waited for. Without commands the run
+/// gives the same results as without a view. Not thread-safe.
 class LiveView {
  public:
   /// Starts to serve on `port` of 127.0.0.1, 0 for a free one. `inputs_refused` is the reason why
@@ -51,7 +51,7 @@ class LiveView {
   void finish();
 
   /// Frames per second of wall time, and the largest share of the time that they may take.
-  static constexpr double kRate = 15, kShare = 0.04;
+  static constexpr double kRate = 11, kShare = 0.04;
   /// Particles in a frame: of more that are in the air, in buckets and in beds, every n-th.
   static constexpr std::size_t kMostParticles = 2000;
 
