@@ -71,6 +71,15 @@ void reset(Runner& runner, const std::optional<std::uint64_t>& seed) {
   log_messages();
 }
 
+void order(Runner& runner, const std::string& machine, const std::string& steps, bool now) {
+  const Runner::Use use(runner);
+  {
+    const nb::gil_scoped_release unlocked;
+    runner.session().order(machine, steps, now);
+  }
+  log_messages();
+}
+
 void set(Runner& runner, nb::handle key, double value) {
   const Runner::Use use(runner);
   runner.session().set(index_of(runner.world().inputs(), key), value);
@@ -259,17 +268,7 @@ void bind_world(nb::module_& module) {
       .def("step", &step, nb::arg("n") = 1)
       .def("reset", &reset, nb::arg("seed") = nb::none())
       .def("set", &set, nb::arg("input"), nb::arg("value"))
-      .def(
-          "order",
-          [](Runner& r, const std::string& machine, const std::string& steps, bool now) {
-            {
-              const Runner::Use use(r);
-              const nb::gil_scoped_release unlocked;
-              r.session().order(machine, steps, now);
-            }
-            log_messages();
-          },
-          nb::arg("machine"), nb::arg("steps"), nb::arg("now") = false)
+      .def("order", &order, nb::arg("machine"), nb::arg("steps"), nb::arg("now") = false)
       .def("get", &get, nb::arg("output"))
       .def("__getitem__", &get)
       .def("__setitem__", &set)

@@ -70,7 +70,8 @@ constexpr std::size_t kShortStride = 7;
 /// began is the exception: runs whose earlier states are equal have the same one.
 const Texts kReasons = {"counts for people, no step reads them",
                         "follows from the states before; states of equal runs keep their hashes",
-                        "only reports: a collision changes the states of its machines"};
+                        "only reports: a collision changes the states of its machines",
+                        "states of runs without orders keep their hashes"};
 
 // Cells of 0.2 m: three thousand particles while the bucket moves through the soil.
 TEST_F(ByteFlip, OfADiggingBucketIsDetected) {
