@@ -8,19 +8,19 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/camera_framing.h"
 #include "sim/frame_builder.h"
 #include "sim/occupied_areas.h"
-#include "vehicle/collision_box.h"
 
 namespace navvy::test {
 
-/// Projects the boxes around the visuals and collision shapes of all machines of a world, which
-/// must outlive this object, into its cameras.
+/// Projects the boxes around all shapes of the machines of a world, which must outlive this object,
+/// into its cameras.
 class MachinePictures {
  public:
   explicit MachinePictures(const sim::World& world) : world_(world), frames_(world) {
     for (const scene::MachineInWorld& placed : world.description().machines)
-      boxes_.push_back(boxes_of(placed.machine));
+      boxes_.push_back(sim::shape_boxes(placed.machine));
   }
 
   /// Returns the largest share of a picture's width that a machine takes, over all cameras that are
@@ -43,29 +43,10 @@ class MachinePictures {
   }
 
  private:
-  struct Part {
-    int link;
-    geometry::OrientedBox box;
-  };
-  static std::vector<Part> boxes_of(const scene::Machine& machine) {
-    std::vector<Part> out;
-    const auto add = [&](std::size_t link, const scene::Geometry& shape, const Pose& X_LS) {
-      scene::Collision body;
-      body.geometry = shape;
-      body.X_LC = X_LS;
-      if (const auto box = vehicle::box_of(body)) out.push_back({static_cast<int>(link), *box});
-    };
-    for (std::size_t l = 0; l < machine.links.size(); ++l) {
-      for (const scene::Visual& one : machine.links[l].visuals) add(l, one.geometry, one.X_LV);
-      for (const scene::Collision& one : machine.links[l].collisions)
-        add(l, one.geometry, one.X_LC);
-    }
-    return out;
-  }
   double share_of_width(std::size_t machine, const scene::FrameCamera& camera) const {
     const sim::MachineHandle handle = world_.machines().at(static_cast<int>(machine));
     double left = 2, right = -2;
-    for (const Part& part : boxes_[machine])
+    for (const sim::ShapeBox& part : boxes_[machine])
       for (const Vec3& corner : geometry::corners(part.box)) {
         const Vec3 p = camera.X_WC.inverse() * (handle.link(part.link).pose() * corner);
         const double tan_x = std::tan(0.5 * camera.fov);
@@ -80,7 +61,7 @@ class MachinePictures {
 
   const sim::World& world_;
   sim::FrameBuilder frames_;
-  std::vector<std::vector<Part>> boxes_;
+  std::vector<std::vector<sim::ShapeBox>> boxes_;
 };
 
 }  // namespace navvy::test

@@ -84,8 +84,8 @@ struct ProgramReport {
   int steps = 0;
   /// True if inputs have taken over the machine from its program.
   bool taken = false;
-  /// Reports of the completed steps, followed by that of the running step if the program has not
-  /// ended. The state of the last entry is the state of the program. Never empty.
+  /// Reports of the completed steps, first those of programs that orders replaced, and of the step
+  /// that runs, if any. The state of the last entry is the state of the program. Never empty.
   std::vector<control::StepReport> list;
   /// Planned paths, in the order in which they were planned.
   std::vector<control::PlannedPath> paths;

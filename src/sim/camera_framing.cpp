@@ -50,13 +50,13 @@ CameraFraming::CameraFraming(const World& world) : world_(world) {
   };
   if (!framed(Framed::kMachine) && !framed(Framed::kProgram) && !framed(Framed::kAll)) return;
   for (const scene::MachineInWorld& placed : scene.machines)
-    parts_.push_back(parts_of(placed.machine));
+    parts_.push_back(shape_boxes(placed.machine));
   if (framed(Framed::kProgram)) add_start(false, program_);
   if (framed(Framed::kAll)) add_start(true, all_);
 }
 
-std::vector<CameraFraming::Part> CameraFraming::parts_of(const scene::Machine& machine) {
-  std::vector<Part> out;
+std::vector<ShapeBox> shape_boxes(const scene::Machine& machine) {
+  std::vector<ShapeBox> out;
   const auto add = [&out](std::size_t link, const scene::Geometry& shape, const Pose& X_LS) {
     scene::Collision body;
     body.geometry = shape;
@@ -83,7 +83,8 @@ std::vector<Vec3> CameraFraming::points(const scene::Camera& camera) const {
                                                : scene.machines[m].name == camera.machine;
     if (!chosen) continue;
     const MachineHandle machine = world_.machines().at(static_cast<int>(m));
-    for (const Part& part : parts_[m]) add_corners(machine.link(part.link).pose(), part.box, out);
+    for (const ShapeBox& part : parts_[m])
+      add_corners(machine.link(part.link).pose(), part.box, out);
   }
   return out;
 }
@@ -98,7 +99,7 @@ void CameraFraming::add_start(bool bodies, std::vector<Vec3>& out) const {
     if (machine.links.empty()) continue;
     const std::size_t before = out.size();
     const std::vector<Pose> X_WL = scene::forward_kinematics(machine, X_WB[m], {});
-    for (const Part& part : parts_[m])
+    for (const ShapeBox& part : parts_[m])
       add_corners(X_WL[static_cast<std::size_t>(part.link)], part.box, out);
     Vec2 low = Vec2::Constant(1e30), high = -low;
     for (std::size_t i = before; i < out.size(); ++i) {

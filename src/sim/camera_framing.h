@@ -11,6 +11,14 @@
 
 namespace navvy::sim {
 
+/// The box around a shape of a machine, in the frame of a link.
+struct ShapeBox {
+  int link = 0;               ///< index of the link
+  geometry::OrientedBox box;  ///< box in the frame of the link [m]
+};
+/// Returns the boxes of all visuals, collision shapes and wheels of a machine. Reads its meshes.
+std::vector<ShapeBox> shape_boxes(const scene::Machine& machine);
+
 /// Finds what fills the pictures of a scene's cameras.
 ///
 /// The construction reads the meshes of all machines, if a camera of the scene frames anything;
@@ -26,19 +34,12 @@ class CameraFraming {
   std::vector<Vec3> points(const scene::Camera& camera) const;
 
  private:
-  /// The box around a shape, in the frame of a link of a machine.
-  struct Part {
-    int link = 0;
-    geometry::OrientedBox box;
-  };
-  /// Returns the boxes of all shapes of a machine.
-  static std::vector<Part> parts_of(const scene::Machine& machine);
   /// Adds the machines at their start, other bodies if `bodies`, and the places of all programs.
   void add_start(bool bodies, std::vector<Vec3>& out) const;
 
   const World& world_;
   /// Boxes of each machine of the scene.
-  std::vector<std::vector<Part>> parts_;
+  std::vector<std::vector<ShapeBox>> parts_;
   /// Points that do not change: of programs, and of everything.
   std::vector<Vec3> program_, all_;
 };
