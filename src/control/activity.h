@@ -71,6 +71,8 @@ struct OperatorContext {
   std::int64_t step = 1;
   /// Number of times that each step of the program has gone back; empty if no step does.
   std::vector<std::int64_t> rounds;
+  /// True if the step before the running one fell short. Follows from the reports of the steps.
+  bool fell_short = false;
   /// Simulated time of the current control step [s]. Not saved in snapshots.
   double now = 0;
 
@@ -132,6 +134,8 @@ class Activity {
   /// Returns true if the step has ended and the steps before it are to run again
   /// (ActivityStep::repeats).
   bool goes_back() const { return back_; }
+  /// Returns the number of steps after this one that are left out when it has ended.
+  int skips() const { return skips_; }
   /// Returns the explanation of the state as a sentence, to which the operator adds time and
   /// position. Empty if there is nothing to explain.
   const std::string& reason() const { return reason_; }
@@ -174,6 +178,8 @@ class Activity {
   }
   /// Makes the steps before this one run again when this control step ends the step.
   void go_back() { back_ = true; }
+  /// Leaves out so many steps after this one when this control step ends the step.
+  void skip(int steps) { skips_ = steps; }
   /// Sets the remark that is reported with a step that succeeds. A later remark replaces it.
   void remark(std::string text) { reason_ = std::move(text); }
 
@@ -192,6 +198,8 @@ class Activity {
   Clock clock_;
   // True if steps are to run again; set in the last control step, so it is not saved.
   bool back_ = false;
+  // Number of steps to leave out; as `back_`.
+  int skips_ = 0;
   // Event that has been reported but not yet taken; kNone if there is none.
   CycleEvent event_ = CycleEvent::kNone;
   // kRunning while the step runs; afterwards kDone, or the state in which it failed.

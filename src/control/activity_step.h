@@ -53,6 +53,8 @@ class ActivityStep : public scene::Step {
   /// Returns the number of steps before this one that run again when the step's activity goes back
   /// (Activity::go_back); 0 for a step that never does.
   virtual int repeats() const { return 0; }
+  /// Returns true if the program goes on at this step when one before it falls short.
+  virtual bool catches() const { return false; }
   /// Returns the path to plan before the program begins. `from` is the pose that the machine will
   /// have when the step starts. Empty if the step needs no path.
   virtual std::optional<PathQuery> path_ahead(const PlanePose& /*from*/) const {

@@ -12,6 +12,7 @@ void JobCut::visit(Archive& a) {
   a("dump_at", dump_at);
   a("key", key);
   a("levels", levels);
+  a("fill", fill);
 }
 
 void JobStation::visit(Archive& a) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,17 @@
 
 namespace navvy::control {
 
-/// A pit to dig, and the place of its spoil.
+/// A heap or windrow from which soil is taken.
+struct JobHeap {
+  /// Ends (x, y) in W of its centre line [m].
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  /// Width of the strip that is dug [m].
+  double width = 4;
+};
+
+/// A pit to dig, and the place of its spoil; or a hole to fill from a heap.
 struct PitJob {
-  /// Shape of the pit; its depth is above 0.
+  /// Shape of the pit, whose depth is above 0; or that of the ground after filling.
   scene::DesignArea area;
   /// Ends (x, y) in W of the windrow in which the spoil is dumped [m]; both the same: a heap.
   Vec2 dump_from = Vec2::Zero(), dump_to = Vec2::Zero();
@@ -30,6 +39,8 @@ struct PitJob {
   /// Deviation (rms) from the design above which a strip of the floor is levelled [m]; 0: the floor
   /// is not levelled.
   double tolerance = 0;
+  /// Heap from which the area is filled; nothing: the area is dug.
+  std::optional<JobHeap> heap;
 };
 
 /// One cut of a job: a strip one bucket wide, radial to the swing axis, in one layer.
@@ -46,6 +57,9 @@ struct JobCut {
   std::int64_t key = 0;
   /// True for one pass along the whole strip, which levels it.
   bool levels = false;
+  /// Share of the bucket's heaped capacity that one scoop shall bring; 0: as many scoops as the
+  /// strip needs, each of a full bucket.
+  double fill = 0;
 
   /// Saves or loads all fields.
   void visit(Archive& a);
@@ -84,7 +98,7 @@ struct JobPlan {
 };
 
 /// Commanded volume of a job and the part of it that is left [m3], and the deviation (rms) of the
-/// ground from the design [m].
+/// ground from the design [m]. For a fill both volumes are what the hole lacks at present.
 struct JobVolume {
   double design = 0, left = 0, rms = 0;
 };

@@ -34,7 +34,10 @@ struct Operator::State {
 
   bool past_last() const { return step >= static_cast<std::int64_t>(steps.size()); }
   bool done() const { return past_last() && !failed(); }
-  bool failed() const { return !reports.empty() && fell_short(reports.back().state); }
+  /// Returns true after a failure that no step has caught: then the step that failed is the present
+  /// one, or all steps are over.
+  bool failed() const { return fell_short_last() && (past_last() || reports.back().step > step); }
+  bool fell_short_last() const { return !reports.empty() && fell_short(reports.back().state); }
   const ActivityStep& present() const { return *steps[static_cast<std::size_t>(step)]; }
   void make_activity();
   void plan_ahead(const Observation& seen);
@@ -43,6 +46,7 @@ struct Operator::State {
   void finish(StepState state, const std::string& reason, const Observation& seen, double time);
   StepReport report(StepState state, const std::string& reason, const Observation& seen,
                     double time) const;
+  void go_on_after(StepState state);
   void read_arm(const Observation& seen);
   void hold_arm(Command& out) const;
   Command stop() const;
@@ -87,6 +91,7 @@ void Operator::State::make_activity() {
       "'" + name + "', step " + std::to_string(step + 1) + " (" + present().element() + ")";
   // The step creates its activity, whose state is new every time.
   place.step = step + 1;
+  place.fell_short = fell_short_last();
   active = present().activity(place);
 }
 
@@ -127,9 +132,9 @@ void Operator::State::finish(StepState state, const std::string& reason, const O
                              double time) {
   reports.push_back(report(state, reason, seen, time));
   const bool back = active && active->goes_back();
+  const int skipped = active ? active->skips() : 0;
   active.reset();
-  // The step that fell short stays the present one: the program goes no further.
-  if (fell_short(state)) return;
+  if (fell_short(state)) return go_on_after(state);
   if (back) {
     // At most to the first step, also in a program that nobody checked.
     ++place.rounds[static_cast<std::size_t>(step)];
@@ -138,7 +143,25 @@ void Operator::State::finish(StepState state, const std::string& reason, const O
   }
   // Rounds count anew when a repeat is reached again from before.
   if (!place.rounds.empty()) place.rounds[static_cast<std::size_t>(step)] = 0;
-  ++step;
+  step = std::min<std::int64_t>(step + 1 + skipped, static_cast<std::int64_t>(steps.size()));
+}
+
+/// Goes on at the next step that catches a failure. If there is none, or if the machine can do
+/// nothing more, the step that fell short stays the present one: the program goes no further.
+void Operator::State::go_on_after(StepState state) {
+  if (past_last() || state == StepState::kTipped || state == StepState::kBuried ||
+      state == StepState::kOffSite)
+    return;
+  const auto from = steps.begin() + step + 1;
+  const auto to =
+      std::find_if(from, steps.end(), [](const ActivityStep* one) { return one->catches(); });
+  if (to == steps.end()) return;
+  place.warn(std::string(name_of(state)) + ", the program goes on at step " +
+             std::to_string(to - steps.begin() + 1) + ": " + reports.back().reason);
+  for (const std::int64_t next = to - steps.begin(); step < next; ++step)
+    if (!place.rounds.empty()) place.rounds[static_cast<std::size_t>(step)] = 0;
+  // The arm may be held: what follows begins where it is.
+  place.handover.known = 0;
 }
 
 namespace {
@@ -275,7 +298,8 @@ Command Operator::update(const Observation& seen, double time, double dt) {
   } else {
     s.watch_over(seen, time, dt);
   }
-  if (s.failed()) {
+  // Also before a step that catches the failure.
+  if (!s.active && s.fell_short_last()) {
     s.note(out);
     return s.stop();
   }
@@ -303,9 +327,12 @@ void Operator::visit(Archive& a) {
     // step.
     const std::int64_t over = s.step + (s.failed() ? 1 : 0);
     // Steps that run again have a report for each round.
-    a.require(s.place.rounds.empty() ? static_cast<std::int64_t>(s.reports.size()) == over
-                                     : static_cast<std::int64_t>(s.reports.size()) >= over,
-              "reports", "another number of them than steps that are over");
+    const auto count = static_cast<std::int64_t>(s.reports.size());
+    // Of steps that are left out there is none.
+    const bool leaves_out = std::any_of(s.steps.begin(), s.steps.end(),
+                                        [](const ActivityStep* one) { return one->catches(); });
+    a.require(leaves_out || (s.place.rounds.empty() ? count == over : count >= over), "reports",
+              "another number of them than steps that are over");
     // Only programs with a repeat have any.
     if (!s.place.rounds.empty()) a.fixed("rounds", s.place.rounds);
     // As many as the scene's machine has joints.

@@ -62,6 +62,8 @@ class ReachCheck {
   const std::vector<std::string>& notes() const { return notes_; }
   /// Returns the number of steps before the one being checked.
   std::size_t steps_before() const { return index_; }
+  /// Returns the number of steps after the one being checked.
+  std::size_t steps_after() const { return program_.steps.size() - index_ - 1; }
   /// Returns true if a step before the one being checked changes the ground.
   bool after_digging() const;
   /// Adds an error about `element` if the swing angle `swing` [rad] is outside the limits of the

@@ -22,7 +22,9 @@ constexpr double kLeastSoil = 0.1, kLeastShare = 0.3;
 constexpr double kLeastLength = 0.8;  // of a cut [m]
 constexpr double kWorth = 0.3;        // least volume of a cut / heaped capacity
 constexpr double kBeyondEdge = 0.6;   // where a pass that levels ends beyond the near edge [m]
-constexpr int kAcross = 5;            // places across a strip at which its level is looked at
+// A fill has mounds where a load fell: its level is looked at over so many samples at a time.
+constexpr std::size_t kMound = 10;
+constexpr int kAcross = 5;  // places across a strip at which its level is looked at
 // Keys: layers are so far apart, and directions count from the middle of that.
 constexpr std::int64_t kLayerKeys = 1000;
 
@@ -30,7 +32,7 @@ constexpr std::int64_t kLayerKeys = 1000;
 class Fan {
  public:
   Fan(const control::PitJob& job, const PitShape& pit, const ArmReach& reach, const Pose& X_WB,
-      const control::SurfaceView& surface)
+      const control::SurfaceView& surface, double sector)
       : pit_(pit),
         reach_(reach),
         surface_(surface),
@@ -38,7 +40,9 @@ class Fan {
         capacity_(reach.arm().bucket().capacity),
         slope_(face_slope(job)),
         tolerance_(job.tolerance),
-        least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)) {
+        sector_(sector),
+        least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)),
+        fills_(job.heap.has_value()) {
     const Pose X_WS = X_WB * reach.arm().X_BS();
     centre_ = X_WS.translation().head<2>();
     ring_ = X_WS.translation().z();
@@ -50,7 +54,7 @@ class Fan {
 
   std::vector<control::JobCut> cuts() const {
     std::vector<control::JobCut> out;
-    const int most = static_cast<int>(kSector / turn_);
+    const int most = static_cast<int>(sector_ / turn_);
     for (int layer = 1; layer <= layers_; ++layer)
       for (int i = -most; i <= most; ++i)
         if (std::optional<control::JobCut> one = cut(layer, i)) out.push_back(*std::move(one));
@@ -131,14 +135,26 @@ class Fan {
     return out;
   }
 
+  /// Returns the deviation (rms) of a strip whose samples have these sums of squares [m]: over all
+  /// of it, or of a fill where it is largest.
+  double worst_mean(const std::vector<double>& squares) const {
+    const std::size_t window = fills_ ? std::min(kMound, squares.size()) : squares.size();
+    double worst = 0, sum = 0;
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      sum += squares[i];
+      if (i >= window) sum -= squares[i - window];
+      if (i + 1 >= window) worst = std::max(worst, sum);
+    }
+    return std::sqrt(worst / static_cast<double>(kAcross * window));
+  }
+
   /// Returns the strip in direction `i` for a pass that levels it; nothing if it is level.
   std::optional<control::JobCut> level(int i) const {
     const double angle = heading_ + i * turn_;
     const Vec2 along(std::cos(angle), std::sin(angle));
     control::JobCut out;
-    std::vector<double> floors, before;
+    std::vector<double> floors, before, squares;
     int first = -1, last = -1;
-    double squares = 0;
     const int samples = static_cast<int>((reach_.arm().longest() + 2 - kFaceBegins) / kSample);
     for (int k = 0; k <= samples; ++k) {
       const double r = kFaceBegins + k * kSample;
@@ -152,11 +168,10 @@ class Fan {
       if (first < 0) first = k;
       last = k;
       floors.push_back(*z);
-      squares += deviation(r, angle, *z);
+      squares.push_back(deviation(r, angle, *z));
     }
     const int length = last - first;
-    if (first < 0 || length * kSample < kLeastLength ||
-        std::sqrt(squares / (kAcross * (length + 1))) <= tolerance_)
+    if (first < 0 || length * kSample < kLeastLength || worst_mean(squares) <= tolerance_)
       return std::nullopt;
     // The bucket leaves the ground beyond the near edge, as far as it reaches.
     const int beyond = std::min(first, static_cast<int>(kBeyondEdge / kSample));
@@ -173,7 +188,8 @@ class Fan {
   const PitShape& pit_;
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
-  const double width_, capacity_, slope_, tolerance_, least_soil_;
+  const double width_, capacity_, slope_, tolerance_, sector_, least_soil_;
+  const bool fills_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;
   int layers_ = 1;
@@ -183,8 +199,8 @@ class Fan {
 
 std::vector<control::JobCut> cut_fan(const control::PitJob& job, const PitShape& pit,
                                      const ArmReach& reach, const Pose& X_WB,
-                                     const control::SurfaceView& surface) {
-  return Fan(job, pit, reach, X_WB, surface).cuts();
+                                     const control::SurfaceView& surface, double sector) {
+  return Fan(job, pit, reach, X_WB, surface, sector).cuts();
 }
 
 }  // namespace navvy::earthwork

@@ -295,7 +295,7 @@ PartDone stage(const control::PitJob& job, const scene::Machine& machine, const 
     refuse("--done", control::number_text(share, ""), "must be from 0.01 to 1", "e.g. 0.5");
   const control::GroundSurfaceView surface(ground);
   const control::JobPlan plan = plan_of(job, machine, X_WB, surface);
-  const PitShape pit(job, surface);
+  const PitShape pit(job.area, surface);
   const Face face(job, pit, plan.stations.front().at.yaw, seed);
   const double foot = face.foot_for(share * face.volume(-std::numeric_limits<double>::max()));
   PartDone out;

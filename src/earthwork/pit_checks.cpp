@@ -69,6 +69,21 @@ std::vector<control::JobFault> check_pit(const control::PitJob& job, const PitSh
   return faults;
 }
 
+void check_on_site(const std::vector<control::JobStation>& stations,
+                   const control::SurfaceView& surface, std::vector<control::JobFault>& faults) {
+  const heightfield::Terrain& site = surface.terrain();
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const Vec2& p = stations[i].at.p;
+    const Vec2 low = p - Vec2::Constant(kAroundStation) - site.origin();
+    const Vec2 high = p + Vec2::Constant(kAroundStation) - site.origin();
+    if (low.minCoeff() < 0 || high.x() > site.nx() * site.cell() ||
+        high.y() > site.ny() * site.cell())
+      faults.push_back({"polygon_m", "station " + std::to_string(i + 1) + " at " + place_text(p),
+                        "the machine must stand " + metres(kAroundStation) + " within the site",
+                        "make the site larger, or move the job"});
+  }
+}
+
 void check_stations(const control::PitJob& job, const Stations& found, const StandingArm& machine,
                     const control::SurfaceView& surface, std::vector<control::JobFault>& faults) {
   if (found.lost > kLeastLost) {
@@ -81,17 +96,10 @@ void check_stations(const control::PitJob& job, const Stations& found, const Sta
                           metres(deepest->top - deepest->floor) + " deep",
                       "make the pit less deep or its sides flatter, or divide it"});
   }
-  const heightfield::Terrain& site = surface.terrain();
+  check_on_site(found.stations, surface, faults);
   for (std::size_t i = 0; i < found.stations.size(); ++i) {
     const control::JobStation& one = found.stations[i];
     const std::string name = "station " + std::to_string(i + 1);
-    const Vec2 low = one.at.p - Vec2::Constant(kAroundStation) - site.origin();
-    const Vec2 high = one.at.p + Vec2::Constant(kAroundStation) - site.origin();
-    if (low.minCoeff() < 0 || high.x() > site.nx() * site.cell() ||
-        high.y() > site.ny() * site.cell())
-      faults.push_back({"polygon_m", name + " at " + place_text(one.at.p),
-                        "the machine must stand " + metres(kAroundStation) + " within the site",
-                        "make the site larger, or move the pit"});
     const Pose X_WS = station_pose(one.at, machine.rise, surface) * machine.arm.X_BS();
     if (spoil_place(job, machine.arm, X_WS, surface)) continue;
     const double away = (job.dump_from - X_WS.translation().head<2>()).norm();

@@ -11,10 +11,12 @@
 #include "control/reach.h"
 #include "core/error.h"
 #include "earthwork/cut_fan.h"
+#include "earthwork/fill_planner.h"
 #include "earthwork/pit_checks.h"
 #include "earthwork/pit_shape.h"
 #include "earthwork/spoil_place.h"
 #include "earthwork/station_search.h"
+#include "scene/polygon.h"
 
 namespace navvy::earthwork {
 namespace {
@@ -22,6 +24,9 @@ namespace {
 /// A pit wider than this [m] is dug in lanes. With a reach of 7 to 8 m a machine in the middle of
 /// its lane gets to both edges some metres ahead.
 constexpr double kLane = 7;
+/// A pit is dug square to its longest edge only if it is so many buckets wide there: shorter cuts
+/// fill none.
+constexpr double kLeastAcross = 2.5;
 
 class PitPlanner final : public control::JobPlanner {
  public:
@@ -31,7 +36,8 @@ class PitPlanner final : public control::JobPlanner {
                         const control::SurfaceView& surface) const override {
     control::JobPlan out;
     try {
-      const PitShape pit(job, surface);
+      if (job.heap) return plan_fill(job, reach_, X_WB, surface);
+      const PitShape pit(job.area, surface);
       out.volume = pit.volume().design;
       const double rise =
           X_WB.translation().z() - surface.height(X_WB.translation().x(), X_WB.translation().y());
@@ -49,7 +55,8 @@ class PitPlanner final : public control::JobPlanner {
 
   std::vector<control::JobCut> cuts(const control::PitJob& job, const Pose& X_WB,
                                     const control::SurfaceView& surface) const override {
-    const PitShape pit(job, surface);
+    if (job.heap) return fill_cuts(job, reach_, X_WB, surface);
+    const PitShape pit(job.area, surface);
     std::vector<control::JobCut> out = cut_fan(job, pit, reach_, X_WB, surface);
     if (out.empty()) return out;
     const std::optional<Vec2> place = spoil_place(job, arm_, X_WB * arm_.X_BS(), surface);
@@ -60,7 +67,7 @@ class PitPlanner final : public control::JobPlanner {
 
   control::JobVolume volume(const control::PitJob& job,
                             const control::SurfaceView& surface) const override {
-    return PitShape(job, surface).volume();
+    return job.heap ? fill_volume(job, surface) : PitShape(job.area, surface).volume();
   }
 
  private:
@@ -94,23 +101,30 @@ class PitPlanner final : public control::JobPlanner {
     return out;
   }
 
+  /// Returns the distance between the outermost columns of a pit along a unit vector [m].
+  static double extent(const PitShape& pit, const Vec2& along) {
+    double low = 1e9, high = -1e9;
+    for (const PitColumn& one : pit.columns()) {
+      low = std::min(low, one.p.dot(along));
+      high = std::max(high, one.p.dot(along));
+    }
+    return high - low;
+  }
+
   /// Returns the stations along the best of the axes parallel and square to the longest edge: those
   /// that leave the least soil, then those with the fewest faults, such as spoil out of reach, then
   /// the fewest stations, then those whose first one is nearest to the machine.
   Choice choose(const control::PitJob& job, const PitShape& pit, const Pose& X_WB, double rise,
                 const control::SurfaceView& surface) const {
-    const std::vector<Vec2>& polygon = job.area.polygon;
-    Vec2 longest = Vec2::Zero();
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-      if (edge.norm() > longest.norm()) longest = edge;
-    }
+    const Vec2 longest = scene::longest_edge(job.area.polygon);
     const double along = std::atan2(longest.y(), longest.x());
     const Digger digger{reach_, pit.ground() + rise + arm_.X_BS().translation().z(),
                         arm_.X_BS().translation().x()};
+    const bool narrow = extent(pit, Vec2(-longest.y(), longest.x()).normalized()) <
+                        kLeastAcross * arm_.bucket().width;
     Choice best;
     std::array<double, 4> least{};
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 4; i += narrow ? 2 : 1) {
       Stations one = find_stations(job, pit, digger, lanes(job, pit, along + i * kPi / 2));
       std::vector<control::JobFault> faults;
       check_stations(job, one, {arm_, rise}, surface, faults);

@@ -2,15 +2,17 @@
 #include "earthwork/pit_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace navvy::earthwork {
 
-PitShape::PitShape(const control::PitJob& job, const control::SurfaceView& surface)
+PitShape::PitShape(const scene::DesignArea& area, const control::SurfaceView& surface)
     : terrain_(surface.terrain()),
-      design_(heightfield::design_of_area(job.area, surface.terrain(), "")) {
-  const Vec2 corner = job.area.polygon.front();
+      polygon_(area.polygon),
+      design_(heightfield::design_of_area(area, surface.terrain(), "")) {
+  const Vec2 corner = polygon_.front();
   const Vec2i column = terrain_.column_at(corner.x(), corner.y());
   ground_ = terrain_.start_height(column.x(), column.y());
   lowest_ = rim_ = ground_;
@@ -21,6 +23,30 @@ PitShape::PitShape(const control::PitJob& job, const control::SurfaceView& surfa
         rim_ = std::max(rim_, terrain_.start_height(ix, iy));
         lowest_ = std::min(lowest_, z);
       }
+}
+
+void PitShape::cover_heap(double skin) {
+  std::array<double, 4> corner{};
+  for (std::size_t i = 0; i < corner.size(); ++i) {
+    const Vec2i at = terrain_.column_at(polygon_[i].x(), polygon_[i].y());
+    corner[i] = terrain_.start_height(at.x(), at.y());
+  }
+  const Vec2 along = polygon_[1] - polygon_[0], across = polygon_[3] - polygon_[0];
+  ground_ = rim_ = -std::numeric_limits<double>::infinity();
+  lowest_ = -ground_;
+  const heightfield::CellRect& r = design_.rect;
+  std::size_t i = 0;
+  for (int iy = r.y0; iy < r.y1; ++iy)
+    for (int ix = r.x0; ix < r.x1; ++ix, ++i) {
+      if (std::isnan(design_.z[i])) continue;
+      const Vec2 p = terrain_.origin() + terrain_.cell() * Vec2(ix + 0.5, iy + 0.5) - polygon_[0];
+      const double u = p.dot(along) / along.squaredNorm(), v = p.dot(across) / across.squaredNorm();
+      const double z = (1 - v) * ((1 - u) * corner[0] + u * corner[1]) +
+                       v * ((1 - u) * corner[3] + u * corner[2]) + skin;
+      design_.z[i] = static_cast<float>(z);
+      lowest_ = std::min(lowest_, z);
+      ground_ = rim_ = std::max({rim_, z, terrain_.height(ix, iy)});
+    }
 }
 
 double PitShape::floor(const Vec2& p) const {

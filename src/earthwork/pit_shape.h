@@ -21,9 +21,14 @@ struct PitColumn {
 /// Design surface of a pit on a site, and the ground in it.
 class PitShape {
  public:
-  /// Computes the design of `job` on the site of `surface`. @throws InputError as
+  /// Computes the design of `area` on the site of `surface`. @throws InputError as
   /// heightfield::design_of_area.
-  PitShape(const control::PitJob& job, const control::SurfaceView& surface);
+  PitShape(const scene::DesignArea& area, const control::SurfaceView& surface);
+
+  /// Makes the shape of a heap on a rectangle: from then on its floor is `skin` [m] above the
+  /// surface through the ground at the rectangle's four corners at the start, and its ground is the
+  /// heap's present top.
+  void cover_heap(double skin);
 
   /// Returns the height of the design at the point `p` in W [m]; NaN outside the pit.
   double floor(const Vec2& p) const;
@@ -46,6 +51,7 @@ class PitShape {
 
  private:
   const heightfield::Terrain& terrain_;
+  std::vector<Vec2> polygon_;
   heightfield::DesignSurface design_;
   double ground_ = 0, lowest_ = 0, rim_ = 0;
 };

@@ -11,15 +11,14 @@ namespace {
 
 constexpr double kSpacing = 0.5;  // of points along a windrow [m]
 
-/// Returns true if the arm can dump at a point on ground of the given height.
+}  // namespace
+
 bool can_dump(const control::PitJob& job, const control::ArmKinematics& arm, const Pose& X_WS,
               const Vec2& p, double height) {
   control::ArmAngles q;
   double possible = 0;
   return control::dump_pose(arm, X_WS, p, height, job.dump_height, q, possible);
 }
-
-}  // namespace
 
 std::vector<Vec2> spoil_points(const control::PitJob& job) {
   const Vec2 along = job.dump_to - job.dump_from;

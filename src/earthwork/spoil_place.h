@@ -11,6 +11,11 @@
 
 namespace navvy::earthwork {
 
+/// Returns true if the arm with its swing axis at X_WS can dump at the point `p`, on ground of the
+/// given height in W [m].
+bool can_dump(const control::PitJob& job, const control::ArmKinematics& arm, const Pose& X_WS,
+              const Vec2& p, double height);
+
 /// Returns the points of a job's windrow, half a metre apart; the one point of a heap.
 std::vector<Vec2> spoil_points(const control::PitJob& job);
 

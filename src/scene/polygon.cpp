@@ -57,4 +57,25 @@ std::optional<PolygonFault> polygon_of(const std::vector<double>& numbers,
   return fault_of(corners);
 }
 
+bool contains(const std::vector<Vec2>& polygon, const Vec2& p) {
+  bool out = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    // Counts the edges that cross the ray from p towards +x.
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+      out = !out;
+  }
+  return out;
+}
+
+Vec2 longest_edge(const std::vector<Vec2>& polygon) {
+  Vec2 out = Vec2::Zero();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    if (edge.norm() > out.norm()) out = edge;
+  }
+  return out;
+}
+
 }  // namespace navvy::scene

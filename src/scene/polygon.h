@@ -23,4 +23,11 @@ struct PolygonFault {
 std::optional<PolygonFault> polygon_of(const std::vector<double>& numbers,
                                        std::vector<Vec2>& corners);
 
+/// Returns true if the point `p` is inside a polygon (even-odd rule).
+bool contains(const std::vector<Vec2>& polygon, const Vec2& p);
+
+/// Returns the longest edge of a polygon, from its beginning to its end [m]; of equal ones the
+/// first.
+Vec2 longest_edge(const std::vector<Vec2>& polygon);
+
 }  // namespace navvy::scene

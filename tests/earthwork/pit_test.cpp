@@ -15,6 +15,7 @@
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
 #include "control/reach.h"
+#include "control/simple_planners.h"
 #include "core/saved_state.h"
 #include "earthwork/pit_checks.h"
 #include "earthwork/pit_planner.h"
@@ -27,16 +28,8 @@ namespace {
 using control::DigArea;
 using control::Grade;
 using control::JobPlan;
-
-/// Plans straight ahead on ground that is drivable everywhere.
-class StraightPlanner final : public control::PathPlanner {
- public:
-  void look(const control::SurfaceView&) override {}
-  double clearance(const control::PlanePose&, double range) const override { return range; }
-  std::optional<control::Path> plan(const control::PathQuery& query) const override {
-    return control::Path(query.start, {{(query.goal.p - query.start.p).norm(), 0}});
-  }
-};
+using control::testing::BlockedPlanner;
+using control::testing::StraightPlanner;
 
 control::Planners planners() {
   return {[](const scene::Machine&) { return std::make_unique<StraightPlanner>(); },
@@ -230,16 +223,6 @@ TEST(Grade, LevelsAPlaneThatFalls) {
   // It says that it is done: at most twice the tolerance.
   EXPECT_LE(rms->value, 0.06);
 }
-
-/// Finds no path at all.
-class BlockedPlanner final : public control::PathPlanner {
- public:
-  void look(const control::SurfaceView&) override {}
-  double clearance(const control::PlanePose&, double) const override { return 0; }
-  std::optional<control::Path> plan(const control::PathQuery&) const override {
-    return std::nullopt;
-  }
-};
 
 TEST(DigArea, LeavesOutStationsThatItCannotReachAndSaysWhy) {
   const LogLines log;

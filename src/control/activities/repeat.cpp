@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/activities/repeat.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "control/activity.h"
@@ -8,6 +9,16 @@
 
 namespace navvy::control {
 namespace {
+
+/// Returns the volume by which the ground is lower than at the start [m3].
+double dug_volume(const heightfield::Ground& ground) {
+  double out = 0;
+  const heightfield::CellRect r = ground.touched_rect();
+  for (int iy = r.y0; iy < r.y1; ++iy)
+    for (int ix = r.x0; ix < r.x1; ++ix)
+      out += std::max(0.0, ground.start_height(ix, iy) - ground.height(ix, iy));
+  return out * ground.cell() * ground.cell();
+}
 
 // Without state: the operator counts rounds.
 class Repeating final : public Activity {
@@ -32,6 +43,9 @@ class Repeating final : public Activity {
       remark("it is " + number_text(place_.now, "s"));
     else if (step_.has_load && seen.load_of && seen.load_of(step_.into) >= step_.load)
       remark("'" + step_.into + "' is loaded");
+    else if (const double dug = step_.has_volume && seen.ground ? dug_volume(*seen.ground) : 0;
+             step_.has_volume && dug >= step_.volume)
+      remark(number_text(dug, "m3") + " are dug");
     else
       go_back();
     return true;
@@ -43,9 +57,9 @@ class Repeating final : public Activity {
 }  // namespace
 
 void Repeat::check(const scene::StepSource& source) {
-  if (!times && !has_until && !has_load)
+  if (!times && !has_until && !has_volume && !has_load)
     source.error("", "", "repeat needs an end",
-                 "add <times>, <until_time_s>, or <into> and <load_kg>");
+                 "add <times>, <until_time_s>, <until_volume_m3>, or <into> and <load_kg>");
   if (has_load && into.empty())
     source.error("load_kg", source.written("load_kg"), "needs the machine that is loaded",
                  "name it in <into>");

@@ -10,8 +10,9 @@
 namespace navvy::control {
 
 /// Goes back, so that the steps before it run again, until an end is reached: a number of rounds, a
-/// simulated time, or a mass in the bed of another machine. If several ends are given, the first
-/// one counts. A step that fails in any round ends the program.
+/// simulated time, a volume dug on the site, or a mass in the bed of another machine. If several
+/// ends are given, the first one counts. A step that fails in any round ends the program, unless an
+/// `if_short` follows.
 struct Repeat final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "repeat";
@@ -24,6 +25,9 @@ struct Repeat final : ActivityStep {
   /// Simulated time from which on no round begins [s]; used if `has_until`.
   double until = 0;
   bool has_until = false;
+  /// Volume dug on the site from which on no round begins [m3]; used if `has_volume`.
+  double volume = 0;
+  bool has_volume = false;
   /// Machine whose beds are loaded, and the mass in them at which no round begins [kg]; used if
   /// `has_load`.
   std::string into;
@@ -36,6 +40,9 @@ struct Repeat final : ActivityStep {
     f("times", times, {1, 1e6}, "Number of rounds in total, with the first one.");
     f("until_time_s", until, {0, 1e9}, "Simulated time from which on no round begins.",
       scene::given(has_until));
+    f("until_volume_m3", volume, {0.001, 1e9},
+      "Volume dug on the site, where it is lower than at the start, from which on no round begins.",
+      scene::given(has_volume));
     f("into", into, "Machine whose beds load_kg concerns.");
     f("load_kg", load, {1, 1e6}, "Mass of soil in the beds of `into` at which no round begins.",
       scene::given(has_load));

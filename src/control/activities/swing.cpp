@@ -20,7 +20,10 @@ class Swinging final : public ActivityWith<ArmMove> {
 
   void begin(const Observation& seen) override {
     // Boom, stick and bucket stay as commanded, so the load stays level.
-    m.start(place_, with_arm(step_.angle, place_.arm_angles()), seen, {});
+    Axes to = with_arm(step_.angle, place_.arm_angles());
+    for (std::size_t i = 1; step_.tucks && i < to.size(); ++i)
+      to[i] = place_.machine.joints[place_.joint(i)].initial;
+    m.start(place_, to, seen, {});
   }
 
  private:

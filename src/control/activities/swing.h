@@ -17,6 +17,9 @@ struct Swing final : ActivityStep {
   explicit Swing(double angle_in = 0) : angle(angle_in) {}
   /// Target angle of the swing joint [rad].
   double angle;
+  /// True: the arm also moves to its angles at the start of the scene, over the machine, so that
+  /// weight is on the driven axle. Not an element of scenes: a job sets it before it drives.
+  bool tucks = false;
 
   /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pit from several stations: turn the arm ahead, drive to a station, make its cuts, and so on.
+// A pit from several stations: tuck the arm in, drive to a station, make its cuts, and so on.
 #include "control/activities/dig/area_digging.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "control/activities/dig/dig.h"
@@ -25,6 +26,8 @@ constexpr double kAside = 0.4, kTurned = radians(6);
 // A cut is begun at most so often at one station: soil falls back into some. A strip is levelled at
 // most so often: a full bucket leaves the rest of it.
 constexpr int kMostRepeats = 2, kMostPasses = 3;
+// A strip of a heap gives at most so many scoops to one station.
+constexpr int kMostScoops = 12;
 // Share of the commanded volume: with more left, the pit is not done, as for a trench.
 constexpr double kUndone = 0.15;
 // A levelled floor may deviate so many tolerances from its design.
@@ -45,6 +48,8 @@ void AreaMemory::visit(Archive& a) {
   a("detour", detour);
   a("missed", missed);
   a("trouble", trouble);
+  a("lacked", lacked);
+  a("cycles", cycles);
 }
 
 AreaDigging::~AreaDigging() = default;
@@ -54,6 +59,7 @@ void AreaDigging::begin(const Observation& seen) {
     return place_.jobs->plan(job_, seen.X_WB, surface);
   });
   m.stations = plan.stations;
+  m.lacked = plan.volume;
   enter(kNext);
 }
 
@@ -74,16 +80,18 @@ void AreaDigging::aim(const Observation& seen) {
 }
 
 void AreaDigging::make_part() {
-  part_.reset();
+  std::unique_ptr<ActivityStep> part;
   if (phase_index() == kTurn) {
-    part_step_ = std::make_unique<Swing>(0);
+    auto step = std::make_unique<Swing>(0);
+    step->tucks = true;
+    part = std::move(step);
   } else if (phase_index() == kDrive && m.way == AreaMemory::Way::kPlanned) {
     auto step = std::make_unique<GoTo>();
     step->target = station().at.p;
     step->heading = station().at.yaw;
     step->speed = step_.speed;
     step->tolerance = kAtStation;
-    part_step_ = std::move(step);
+    part = std::move(step);
   } else if (phase_index() == kDrive) {
     auto step = std::make_unique<DriveTo>();
     step->target = station().at.p;
@@ -91,7 +99,7 @@ void AreaDigging::make_part() {
     step->has_heading = true;
     step->speed = m.way == AreaMemory::Way::kAhead ? step_.speed : -step_.speed;
     step->tolerance = kAtStation;
-    part_step_ = std::move(step);
+    part = std::move(step);
   } else {
     auto step = std::make_unique<Dig>();
     step->from = m.cut.near;
@@ -107,9 +115,15 @@ void AreaDigging::make_part() {
     step->dump_height = step_.dump_height;
     step->fill = step_.fill;
     step->has_fill = step_.has_fill;
-    part_step_ = std::move(step);
+    if (m.cut.fill > 0) {
+      // One scoop, no larger than the hollow that it fills.
+      step->max_cycles = 1;
+      step->has_fill = step_.has_fill || m.cut.fill < 1;
+      step->fill = std::min(step_.has_fill ? step_.fill : 1.0, m.cut.fill);
+    }
+    part = std::move(step);
   }
-  part_ = part_step_->activity(place_);
+  part_.make(std::move(part), place_);
 }
 
 bool AreaDigging::select_cut(const Observation& seen) {
@@ -117,11 +131,11 @@ bool AreaDigging::select_cut(const Observation& seen) {
     return place_.jobs->cuts(job_, seen.X_WB, surface);
   });
   for (const JobCut& cut : cuts) {
-    if (std::count(m.begun.begin(), m.begun.end(), cut.key) >=
-        (cut.levels ? kMostPasses : kMostRepeats))
-      continue;
+    const int most = cut.fill > 0 ? kMostScoops : cut.levels ? kMostPasses : kMostRepeats;
+    if (std::count(m.begun.begin(), m.begun.end(), cut.key) >= most) continue;
     m.begun.push_back(cut.key);
     m.cut = cut;
+    m.cycles = place_.handover.cycles;
     ++m.cuts;
     return true;
   }
@@ -156,9 +170,11 @@ void AreaDigging::leave_station() {
 
 void AreaDigging::end_part() {
   const bool failed = fell_short(part_->state());
+  // A strip of a heap that gave no scoop is not asked again.
+  if (phase_index() == kCut && m.cut.fill > 0 && (failed || m.cycles == place_.handover.cycles))
+    m.begun.insert(m.begun.end(), kMostScoops, m.cut.key);
   const std::string reason = part_->reason();
-  part_.reset();
-  part_step_.reset();
+  part_.clear();
   if (!failed) return;
   if (phase_index() == kCut) {
     // Another cut may do, and what is left decides in the end.
@@ -191,9 +207,15 @@ bool AreaDigging::update(const Observation& seen, double dt, Command& out) {
   return go_on(seen);
 }
 
-bool AreaDigging::conclude(const Observation& seen) {
-  const JobVolume volume = with_surface(
+JobVolume AreaDigging::volume(const Observation& seen) const {
+  JobVolume out = with_surface(
       seen, [&](const SurfaceView& surface) { return place_.jobs->volume(job_, surface); });
+  if (job_.heap) out.design = m.lacked;
+  return out;
+}
+
+bool AreaDigging::conclude(const Observation& seen) {
+  const JobVolume volume = this->volume(seen);
   const bool dug = volume.left <= kUndone * volume.design;
   if (dug && (job_.tolerance == 0 || volume.rms <= kUneven * job_.tolerance)) return true;
   if (dug)
@@ -201,10 +223,11 @@ bool AreaDigging::conclude(const Observation& seen) {
         StepState::kBlocked, "the ground still deviates from the design by " + metres(volume.rms) +
                                  " (rms), more than twice the tolerance" +
                                  (m.trouble.empty() ? "" : "; " + m.trouble));
-  return Activity::fall_short(StepState::kBlocked,
-                              "what is left could not be dug: " + number_text(volume.left, "m3") +
-                                  " of " + number_text(volume.design, "m3") +
-                                  (m.trouble.empty() ? "" : "; " + m.trouble));
+  return Activity::fall_short(StepState::kBlocked, std::string("what is left could not be ") +
+                                                       (job_.heap ? "filled: " : "dug: ") +
+                                                       number_text(volume.left, "m3") + " of " +
+                                                       number_text(volume.design, "m3") +
+                                                       (m.trouble.empty() ? "" : "; " + m.trouble));
 }
 
 const char* AreaDigging::phase() const {
@@ -213,8 +236,7 @@ const char* AreaDigging::phase() const {
 }
 
 std::vector<Measurement> AreaDigging::account(const Observation& seen) const {
-  const JobVolume volume = with_surface(
-      seen, [&](const SurfaceView& surface) { return place_.jobs->volume(job_, surface); });
+  const JobVolume volume = this->volume(seen);
   return {{"stations", static_cast<double>(m.stations.size())},
           {"stations_done", static_cast<double>(m.station - m.missed)},
           {"stations_missed", static_cast<double>(m.missed)},
@@ -228,18 +250,13 @@ std::vector<Measurement> AreaDigging::account(const Observation& seen) const {
 void AreaDigging::visit(Archive& a) {
   ActivityWith::visit(a);
   a.require(phase_index() >= kNext && phase_index() <= kCut, "phase", "no phase of a dig_area");
-  std::int64_t running = part_ ? 1 : 0;
-  a("running", running);
-  a.require(running == 0 || phase_index() != kNext, "running", "no part runs in this phase");
-  // A part is made for the present station.
-  a.require(running == 0 || m.station < static_cast<std::int64_t>(m.stations.size()), "station",
-            "a part runs, but all stations are done");
-  if (a.loading()) {
-    part_.reset();
-    part_step_.reset();
-    if (running != 0) make_part();
-  }
-  if (part_) a("part", *part_);
+  part_.visit(a, [&] {
+    a.require(phase_index() != kNext, "running", "no part runs in this phase");
+    // A part is made for the present station.
+    a.require(m.station < static_cast<std::int64_t>(m.stations.size()), "station",
+              "a part runs, but all stations are done");
+    make_part();
+  });
 }
 
 }  // namespace navvy::control

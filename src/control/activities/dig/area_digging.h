@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "control/activities/dig/dig_area.h"
+#include "control/activities/part.h"
 #include "control/activity.h"
 #include "control/job_planner.h"
 
@@ -25,6 +25,10 @@ struct AreaMemory {
   JobCut cut;
   /// Number of cuts made so far, and of those that failed.
   std::int64_t cuts = 0, failed = 0;
+  /// Number of cycles of the program when the present cut began.
+  std::int64_t cycles = 0;
+  /// Volume that the hole lacked when a fill began [m3].
+  double lacked = 0;
   /// Way of driving to a station.
   enum class Way : std::uint8_t {
     kNone,     ///< before the first drive
@@ -44,7 +48,7 @@ struct AreaMemory {
   void visit(Archive& a);
 };
 
-/// Activity that carries out a dig_area: for each station turns the arm ahead, drives there, and
+/// Activity that carries out a dig_area: for each station tucks the arm in, drives there, and
 /// makes the cuts that the job planner finds on the ground as it then is. Each of these is a part
 /// with an activity of its own.
 class AreaDigging final : public ActivityWith<AreaMemory> {
@@ -84,6 +88,8 @@ class AreaDigging final : public ActivityWith<AreaMemory> {
   void end_part();
   /// Goes on to the next station.
   void leave_station();
+  /// Returns the volumes of the job on the ground as it is.
+  JobVolume volume(const Observation& seen) const;
   /// Ends the step by what is left.
   bool conclude(const Observation& seen);
   /// Returns the present station.
@@ -94,9 +100,7 @@ class AreaDigging final : public ActivityWith<AreaMemory> {
   // The step that is carried out, and its job.
   const DigArea& step_;
   const PitJob job_;
-  // Step and activity of the running part; null between parts. The activity refers to the step.
-  std::unique_ptr<ActivityStep> part_step_;
-  std::unique_ptr<Activity> part_;
+  Part part_;
 };
 
 }  // namespace navvy::control

@@ -67,7 +67,8 @@ PitJob DigArea::job() const {
           has_dump_to ? dump_to : dump_at,
           dump_height,
           pass_depth,
-          tolerance};
+          tolerance,
+          heap};
 }
 
 std::unique_ptr<Activity> DigArea::activity(OperatorContext& place) const {

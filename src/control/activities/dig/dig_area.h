@@ -54,6 +54,8 @@ struct DigArea : ActivityStep {
   bool has_fill = false;
   /// Speed between stations [m/s].
   double speed = 0.6;
+  /// Heap from which the area is filled. Only a backfill has one.
+  std::optional<JobHeap> heap;
 
   /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {

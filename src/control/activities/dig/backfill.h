@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program step `backfill`: fills a hole from a heap or windrow beside it.
+#pragma once
+
+#include "control/activities/dig/dig_area.h"
+
+namespace navvy::control {
+
+/// Fills the ground inside a polygon up to a plane with soil from a heap or windrow beside it. The
+/// machine works forwards along the longest edge: from each station it fills the next 3 m ahead of
+/// it, the largest hollow first, each scoop no larger than that hollow, takes off what lies too
+/// high, and drives on over its fill.
+///
+/// The step is done if at most 15 % of what the hole lacked is missing and the ground deviates from
+/// the plane by at most twice the tolerance.
+struct Backfill final : DigArea {
+  /// Name of the step's element in scene files.
+  static constexpr const char* kElement = "backfill";
+  /// One-sentence description of the step for the reference of scene elements.
+  static constexpr const char* kText =
+      "Fills the ground inside a polygon up to a plane, with soil from a heap or windrow beside "
+      "it.";
+  /// Fills up to the ground at the start.
+  Backfill() {
+    depth = 0;
+    batter = radians(90);
+    tolerance = 0.05;
+    dump_height = 0.8;
+  }
+  /// Ends (x, y) in W of the centre line of the heap [m].
+  Vec2 from = Vec2::Zero(), from_to = Vec2::Zero();
+  /// True if the scene file gives `from_to`; without it the heap is a square about `from`.
+  bool has_from_to = false;
+  /// Width of the strip from which the soil is taken [m].
+  double heap_width = 4;
+
+  /// Lists the child elements of the step with their ranges and descriptions.
+  void describe(scene::Fields& f) override {
+    f("polygon_m", polygon_numbers, {-1e6, 1e6},
+      "Coordinates x y in W of the 3 to 1000 corners of the fill; edges must not cross.",
+      scene::kNeeded);
+    f("depth_m", depth, {0, 20},
+      "Depth of the filled ground below the ground at the start, at the first corner.");
+    f("fall_deg", fall, {0, 30}, "Angle by which the filled ground falls.");
+    f("fall_yaw_deg", fall_yaw, {-360, 360}, "Direction of the fall, from W's x.");
+    f("from_m", from, {-1e6, 1e6}, "Place of the heap in W.", scene::kNeeded);
+    f("from_to_m", from_to, {-1e6, 1e6},
+      "Other end of a windrow that begins at from_m; without it the heap is a square.",
+      scene::given(has_from_to));
+    f("heap_width_m", heap_width, {1, 20}, "Width of the strip of soil that is taken.");
+    f("tolerance_m", tolerance, {0.005, 1},
+      "Height (rms) over the plane above which a strip is taken off.");
+    f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground at the dump.");
+    f("pass_depth_m", pass_depth, {0.1, 5}, "Largest depth of a layer of the heap.");
+    f("fill", this->fill, {0.1, 1.5},
+      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
+      "soil.",
+      scene::given(has_fill));
+    f("speed_m_per_s", speed, {0.05, 20}, "Speed between stations.");
+  }
+  /// Reports errors as a dig_area does, and a heap off the site.
+  void check(const scene::StepSource& source) {
+    // Where a dig_area has its spoil, this step has a corner of the fill.
+    dump_at = dump_to =
+        polygon_numbers.size() < 2 ? from : Vec2(polygon_numbers[0], polygon_numbers[1]);
+    DigArea::check(source);
+    source.on_site("from_m", from);
+    if (has_from_to) source.on_site("from_to_m", from_to);
+    heap = JobHeap{from, has_from_to ? from_to : from, heap_width};
+  }
+  /// Returns the name of the step's element in scene files.
+  const char* element() const override { return kElement; }
+  /// Returns the corners of the fill and the ends of the windrow.
+  std::vector<Vec2> places() const override {
+    std::vector<Vec2> out = polygon;
+    out.push_back(from);
+    if (has_from_to) out.push_back(from_to);
+    return out;
+  }
+  /// Returns nothing: the step digs no pit.
+  std::optional<PitJob> pit_job() const override { return std::nullopt; }
+  /// Returns the first corner of the fill.
+  std::optional<DumpPoint> dump_point() const override {
+    return DumpPoint{polygon.empty() ? from : polygon.front(), dump_height};
+  }
+};
+
+}  // namespace navvy::control
