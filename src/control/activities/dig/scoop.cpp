@@ -148,7 +148,9 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
   const bool full = seen.payload >= kCurlAt * aimed_mass() && turned_in;
   // Equal loads leave no small rest of a slice; a dig of a number of cycles fills each.
   const bool fair = !dig_.max_cycles && seen.payload > kFairLoad * aimed_mass();
-  const bool planned = m.s <= m.scoop_end && (fair || m.s <= m.scoop_end - kMore);
+  // A cut of a job goes on: other strips have taken a part of its soil where they cross.
+  const bool more = !dig_.is_cut() && m.s <= m.scoop_end - kMore;
+  const bool planned = m.s <= m.scoop_end && (fair || more);
   const double left_to_curl = m.cleaning != 0 ? kCleanCurlPath : kCurlPath;
   const bool at_end = m.s <= std::min(left_to_curl, 0.5 * m.scoop_start);
   if (!(full || planned || at_end || overdue(kPhaseLimit))) return false;
