@@ -13,6 +13,7 @@ void JobCut::visit(Archive& a) {
   a("key", key);
   a("levels", levels);
   a("fill", fill);
+  a("worth", worth);
 }
 
 void JobStation::visit(Archive& a) {

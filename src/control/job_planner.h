@@ -60,6 +60,8 @@ struct JobCut {
   /// Share of the bucket's heaped capacity that one scoop shall bring; 0: as many scoops as the
   /// strip needs, each of a full bucket.
   double fill = 0;
+  /// Share of a full bucket below which the rest of the strip stays.
+  double worth = 0.3;
 
   /// Saves or loads all fields.
   void visit(Archive& a);

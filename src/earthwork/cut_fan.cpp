@@ -20,8 +20,10 @@ constexpr double kAside = 0.04;
 // Soil above the floor at the ends of a cut [m]; in a shallow job this share of its depth.
 constexpr double kLeastSoil = 0.1, kLeastShare = 0.3;
 constexpr double kLeastLength = 0.8;  // of a cut [m]
-constexpr double kWorth = 0.3;        // least volume of a cut / heaped capacity
-constexpr double kBeyondEdge = 0.6;   // where a pass that levels ends beyond the near edge [m]
+// Least volume of a cut / heaped capacity: in the last layer, and in those above it, where the rest
+// waits for the next one.
+constexpr double kWorth = 0.3, kWorthAbove = 0.6;
+constexpr double kBeyondEdge = 0.6;  // where a pass that levels ends beyond the near edge [m]
 // A fill has mounds where a load fell: its level is looked at over so many samples at a time.
 constexpr std::size_t kMound = 10;
 constexpr int kAcross = 5;  // places across a strip at which its level is looked at
@@ -96,6 +98,7 @@ class Fan {
     control::JobCut out;
     std::vector<double> floors;
     int first = -1, last = -1;
+    const double worth = layer == layers_ ? kWorth : kWorthAbove;
     double volume = 0;  // above the floor [m3]
     const int samples = static_cast<int>((reach_.arm().longest() + 2 - kFaceBegins) / kSample);
     for (int k = 0; k <= samples; ++k) {
@@ -111,13 +114,14 @@ class Fan {
       last = k;
       volume += (top - *z) * width_ * kSample;
     }
-    if (first < 0 || (last - first) * kSample < kLeastLength || volume < kWorth * capacity_)
+    if (first < 0 || (last - first) * kSample < kLeastLength || volume < worth * capacity_)
       return std::nullopt;
     out.near = centre_ + (kFaceBegins + first * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
     out.floor.assign(floors.begin() + first, floors.begin() + last + 1);
     out.rim = pit_.rim();
     out.key = layer * kLayerKeys + i + kLayerKeys / 2;
+    out.worth = worth;
     return out;
   }
 

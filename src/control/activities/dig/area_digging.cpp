@@ -109,6 +109,7 @@ void AreaDigging::make_part() {
     step->width = place_.arm->bucket().width;
     step->depth = job_.pass_depth;
     step->levels = m.cut.levels;
+    step->worth = m.cut.worth;
     // One layer is one slice, also where the ground is higher than it was.
     step->pass_depth = 2 * job_.pass_depth;
     step->dump_at = m.cut.dump_at;

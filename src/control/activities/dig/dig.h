@@ -57,6 +57,8 @@ struct Dig final : ActivityStep {
   std::vector<double> floor;
   /// Height in W above which the bucket swings [m]; used if `is_cut`.
   double rim = 0;
+  /// Share of a full bucket below which the rest of a cut stays; used if `is_cut`.
+  double worth = 0.3;
   /// True for one pass along the whole floor, whatever it brings. Not an element of scenes either.
   bool levels = false;
   /// Returns true for a cut of a job: soil that is left is no failure, and the floor is not cleaned

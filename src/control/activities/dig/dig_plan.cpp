@@ -32,8 +32,6 @@ constexpr double kThinner = 0.7;    // a slice after one that held the bucket, o
 constexpr double kThinnest = 0.1;   // what the soil's cells still resolve [m]
 // The rest of a slice below this share of a bucket waits for the next slice.
 constexpr double kWorth = 0.7;
-// That of the last slice of a job's cut: the rest waits for the layer below it.
-constexpr double kWorthCut = 0.3;
 // The rest of the last slice below this share of a bucket stays, but no more than this share of the
 // trench.
 constexpr double kWorthLast = 0.15, kMostRest = 0.05;
@@ -280,7 +278,7 @@ Scoop DigPlan::next(const SurfaceView& surface, bool hindered) const {
     const double rest = volume_above(surface, level);
     above = level;
     // What is left of the last slice, if no more than a load, is the clean-up's.
-    const double worth = k < slices() ? kWorth : dig_.is_cut() ? kWorthCut : 1 + kOverload;
+    const double worth = k < slices() ? kWorth : dig_.is_cut() ? dig_.worth : 1 + kOverload;
     if (rest < worth * scoop_volume_) continue;
     // A scoop begins behind what lies thin on the floor, unless nothing else is left.
     for (const double least : {thick, kTolerance})
