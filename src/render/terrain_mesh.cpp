@@ -85,6 +85,56 @@ void add_skirt(Mesh& mesh, std::vector<std::uint32_t>& skirt,
   }
 }
 
+// Distances of the rings of the surroundings beyond the edge of the site [m].
+constexpr std::array<float, 14> kReach = {0,  0.6f, 1.5f, 3,  5,   8,   12,
+                                          18, 27,   40,   65, 110, 250, 900};
+// Distance from the edge from which the ground has patches of its own [m].
+constexpr float kPlain = 14;
+// Number of points of a ring, about, however large the site is.
+constexpr int kMostAround = 256;
+
+/// Height in W [m] and colour of a point of the site's edge.
+struct EdgePoint {
+  float height = 0;
+  Vec3f color = Vec3f::Zero();
+};
+
+/// Returns the means over `reach` points to both sides along a closed line; over all of it at most.
+std::vector<EdgePoint> blurred(const std::vector<EdgePoint>& line, float reach) {
+  const auto count = static_cast<int>(line.size());
+  const int k = std::min(static_cast<int>(reach), (count - 1) / 2);
+  EdgePoint sum;
+  const auto add = [&](int i, float share) {
+    const EdgePoint& one = line[static_cast<std::size_t>((i + count) % count)];
+    sum.height += share * one.height;
+    sum.color += share * one.color;
+  };
+  for (int i = -k; i <= k; ++i) add(i, 1);
+  std::vector<EdgePoint> out;
+  const float inverse = 1 / static_cast<float>(2 * k + 1);
+  for (int i = 0; i < count; ++i) {
+    out.push_back({inverse * sum.height, inverse * sum.color});
+    add(i - k, -1);
+    add(i + k + 1, 1);
+  }
+  return out;
+}
+
+/// Returns the vertex at the distance `reach` outwards from the point `p` of the edge, whose height
+/// and colour there are those of `at`.
+Vertex outside(const EdgePoint& at, const Vec3f& p, const Vec3f& center, float reach,
+               const Vec3f& haze) {
+  // Outwards as from a rounded square, so that rings stay apart at corners.
+  const Vec3f out = Vec3f(p.x() - center.x(), p.y() - center.y(), 0).normalized();
+  const Vec3f q = p + out * reach * 1.3f;
+  // Patches end where they would be shorter than the distance between two rings.
+  const float patch = value_noise(q.x() / 6, q.y() / 6, 3) * (1 - smooth_step(5, 18, reach)) +
+                      value_noise(q.x() / 31, q.y() / 31, 4) * (1 - smooth_step(27, 110, reach));
+  Vec3f tone = at.color * (1 + 0.05f * patch * smooth_step(0, kPlain, reach));
+  tone += (haze - tone) * 0.25f * smooth_step(4, 150, reach);
+  return colored({q.x(), q.y(), at.height}, tone);
+}
+
 }  // namespace
 
 std::size_t GroundPart::triangles() const {
@@ -107,6 +157,7 @@ void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& light
   // A tile shares its last nodes with the next one, and coarse colours average half a stride around
   // them.
   std::vector<ColumnRect> wide;
+  wide.reserve(changed.size());
   for (const ColumnRect& rect : changed)
     wide.push_back(rect.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny()));
   for (int ty = 0; ty < tiles_y_; ++ty)
@@ -273,47 +324,30 @@ GroundPart TerrainMesh::surroundings(const Lighting& lighting) {
   if (!surroundings_stale_ || tiles_.empty()) return part;
   surroundings_stale_ = false;
   surroundings_ = {};
-  // The edge as one closed line, counter-clockwise from the lower-left corner, with its outward
-  // directions.
-  constexpr int kStep = 4;
+  // The edge as one closed line, counter-clockwise from the lower-left corner.
   const int nx = surface_.nx(), ny = surface_.ny();
+  const int step = std::max(4, (nx + ny) / kMostAround);
   std::vector<std::array<int, 2>> edge;
-  for (int x = 0; x < nx - 1; x += kStep) edge.push_back({x, 0});
-  for (int y = 0; y < ny - 1; y += kStep) edge.push_back({nx - 1, y});
-  for (int x = nx - 1; x > 0; x -= kStep) edge.push_back({x, ny - 1});
-  for (int y = ny - 1; y > 0; y -= kStep) edge.push_back({0, y});
-
-  // Far out the ground is level and has the mean colour of the edge.
-  float mean = 0;
-  Vec3f color = Vec3f::Zero();
+  for (int x = 0; x < nx - 1; x += step) edge.push_back({x, 0});
+  for (int y = 0; y < ny - 1; y += step) edge.push_back({nx - 1, y});
+  for (int x = nx - 1; x > 0; x -= step) edge.push_back({x, ny - 1});
+  for (int y = ny - 1; y > 0; y -= step) edge.push_back({0, y});
+  const auto around = static_cast<std::uint32_t>(edge.size());
+  std::vector<EdgePoint> own;
   for (const auto& [x, y] : edge) {
     const auto& c = surface_.lit(x, y);
-    mean += surface_.height(x, y) / static_cast<float>(edge.size());
-    color += Vec3f(c[0], c[1], c[2]) / (255.0f * static_cast<float>(edge.size()));
+    own.push_back({surface_.height(x, y), Vec3f(c[0], c[1], c[2]) / 255.0f});
   }
-  // Rings of the same points, moved outwards.
   const Vec3f center = 0.5f * (surface_.point(0, 0) + surface_.point(nx - 1, ny - 1));
-  // Distances beyond the edge [m].
-  constexpr std::array<float, 8> kReach = {0, 0.6f, 2, 5, 12, 40, 150, 900};
-  const auto around = static_cast<std::uint32_t>(edge.size());
-  for (std::size_t ring = 0; ring < kReach.size(); ++ring)
-    for (const auto& [x, y] : edge) {
-      const Vec3f p = surface_.point(x, y);
-      const auto& c = surface_.lit(x, y);
-      Vec3f out(p.x() - center.x(), p.y() - center.y(), 0);
-      // Outwards as from a rounded square, so that rings stay apart at corners.
-      out.normalize();
-      const float share = smooth_step(0, 14, kReach[ring]);
-      const Vec3f at = p + out * kReach[ring] * 1.3f;
-      const float patch =
-          value_noise(at.x() / 6, at.y() / 6, 3) + value_noise(at.x() / 31, at.y() / 31, 4);
-      const Vec3f plain = color * (1.0f + 0.05f * patch);
-      const Vec3f own = Vec3f(c[0], c[1], c[2]) / 255.0f;
-      Vec3f tone = own + (plain - own) * share;
-      tone += (lighting.haze - tone) * 0.25f * smooth_step(4, 150, kReach[ring]);
+  for (const float reach : kReach) {
+    // Farther out each point takes after a longer piece of the edge, or the colours and heights of
+    // single columns would be drawn out to streaks.
+    const std::vector<EdgePoint> line =
+        blurred(own, reach / (static_cast<float>(step) * surface_.cell()));
+    for (std::size_t i = 0; i < edge.size(); ++i)
       surroundings_.vertices.push_back(
-          colored({at.x(), at.y(), p.z() + (mean - p.z()) * share}, tone));
-    }
+          outside(line[i], surface_.point(edge[i][0], edge[i][1]), center, reach, lighting.haze));
+  }
   for (std::uint32_t ring = 0; ring + 1 < kReach.size(); ++ring)
     for (std::uint32_t i = 0; i < around; ++i) {
       const std::uint32_t k = (i + 1) % around;
