@@ -183,25 +183,29 @@ void GlDraw::make_grain() {
     const float contrast = static_cast<std::size_t>(level) < kContrast.size()
                                ? kContrast[static_cast<std::size_t>(level)]
                                : 0;
-    std::vector<std::uint8_t> shown(texels.size());
-    for (std::size_t i = 0; i < texels.size(); ++i)
-      shown[i] = to_byte(0.5f + contrast * (static_cast<float>(texels[i]) / 255.0f - 0.5f));
-    glTexImage2D(GL_TEXTURE_2D, level, GL_LUMINANCE8, static_cast<GLsizei>(size),
-                 static_cast<GLsizei>(size), 0, GL_LUMINANCE, GL_UNSIGNED_BYTE, shown.data());
+    // Software GL reads four channels faster than one.
+    std::vector<std::array<std::uint8_t, 4>> shown(texels.size());
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      const std::uint8_t tone =
+          to_byte(0.5f + contrast * (static_cast<float>(texels[i]) / 255.0f - 0.5f));
+      shown[i] = {tone, tone, tone, 255};
+    }
+    glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, static_cast<GLsizei>(size),
+                 static_cast<GLsizei>(size), 0, GL_RGBA, GL_UNSIGNED_BYTE, shown.data());
     texels = half_size(texels, size);
   }
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
-// Projects the texture from above, slightly skewed by height so that the grain keeps its size on
-// slopes in any direction; on walls from the side.
+// Projects the texture from above, so that the grain stays where soil settles; on walls from the
+// side.
 void GlDraw::place_grain(bool on_walls) {
   glActiveTexture(GL_TEXTURE0);
   const float k = 1.0f / kGrainLength;
-  set_plane(GL_S, on_walls ? Eigen::Vector4f(0.9f * k, 0.6f * k, 0, 0)
-                           : Eigen::Vector4f(k, 0, 0.35f * k, 0));
-  set_plane(GL_T, on_walls ? Eigen::Vector4f(0, 0, k, 0) : Eigen::Vector4f(0, k, -0.35f * k, 0));
+  set_plane(GL_S,
+            on_walls ? Eigen::Vector4f(0.9f * k, 0.6f * k, 0, 0) : Eigen::Vector4f(k, 0, 0, 0));
+  set_plane(GL_T, on_walls ? Eigen::Vector4f(0, 0, k, 0) : Eigen::Vector4f(0, k, 0, 0));
 }
 
 void GlDraw::bind_grain() {
@@ -225,13 +229,9 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   // The mask is a texture of 512 x 512 texels; it is uploaded only when the casters have moved.
   if (shadow_version_ != shadows.version()) {
     shadow_version_ = shadows.version();
-    // Share of the light of level ground that remains without the sun. A shadow is not black: the
-    // sky still lights it, so colours are scaled between this share and one.
-    const Vec3f level = lighting.sun * std::max(0.2f, lighting.to_sun.z()) + lighting.sky;
-    const Vec3f left = lighting.sky.cwiseQuotient(level) * 0.92f;
     std::array<std::array<std::uint8_t, 4>, 256> tone;
     for (std::size_t i = 0; i < 256; ++i) {
-      const Vec3f lit = left + (Vec3f::Ones() - left) * (static_cast<float>(i) / 255.0f);
+      const Vec3f lit = shadow_tone(lighting, static_cast<float>(i) / 255.0f);
       tone[i] = {to_byte(lit.x()), to_byte(lit.y()), to_byte(lit.z()), 255};
     }
     std::vector<std::array<std::uint8_t, 4>> texels(shadows.mask().size());

@@ -67,6 +67,14 @@ inline Vec3f shade(const Lighting& light, const Vec3f& albedo, const Vec3f& norm
   return linear * ((kShoulder + kRange * (1 - std::exp((kShoulder - most) / kRange))) / most);
 }
 
+/// Returns the factor by which the lit colour of level ground is multiplied where a body leaves the
+/// fraction `sun` (0 to 1) of the sun visible: the sky still lights a shadow.
+inline Vec3f shadow_tone(const Lighting& light, float sun) {
+  const Vec3f level = light.sun * std::max(0.2f, light.to_sun.z()) + light.sky;
+  const Vec3f left = light.sky.cwiseQuotient(level) * 0.92f;
+  return left + (Vec3f::Ones() - left) * sun;
+}
+
 /// Converts a value, clamped to 0..1, to a byte in 0..255.
 inline std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);

@@ -141,6 +141,32 @@ void ShadowMap::finish() {
   constexpr int kInner = (kSize - 4) * kSize - 4;
   smooth(&mask_[2 * kSize + 2], &blur_[2 * kSize + 2], kInner, 1);
   smooth(&blur_[2 * kSize + 2], &mask_[2 * kSize + 2], kInner, kSize);
+  dark_.assign(kSquares * kSquares, 0);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x)
+      if (mask_[static_cast<std::size_t>(y * kSize + x)] != 255)
+        dark_[static_cast<std::size_t>(y / kSquare * kSquares + x / kSquare)] = 1;
+}
+
+bool ShadowMap::reaches(const Vec3f& low, const Vec3f& high) const {
+  if (!used_ || !covers(low, high)) return false;
+  // The squares that the box covers, with one beyond them, as textures are interpolated.
+  std::array<int, 2> first, last;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Eigen::Vector4f& plane = k == 0 ? plane_s_ : plane_t_;
+    const Vec3f middle = 0.5f * (low + high), half = 0.5f * (high - low);
+    const float at = plane.head<3>().dot(middle) + plane.w(),
+                reach = plane.head<3>().cwiseAbs().dot(half);
+    const auto square = [](float s) {
+      return static_cast<int>(std::floor(std::clamp(s, 0.0f, 1.0f) * kSquares));
+    };
+    first[k] = std::max(0, square(at - reach) - 1);
+    last[k] = std::min(kSquares - 1, square(at + reach) + 1);
+  }
+  for (int y = first[1]; y <= last[1]; ++y)
+    for (int x = first[0]; x <= last[0]; ++x)
+      if (dark_[static_cast<std::size_t>(y * kSquares + x)] != 0) return true;
+  return false;
 }
 
 Eigen::Vector4f ShadowMap::plane_r() const {

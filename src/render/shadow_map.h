@@ -39,7 +39,7 @@ class ShadowMap {
   std::uint64_t version() const { return version_; }
   /// Returns false if no shadow can fall on anything inside the box from `low` to `high` in W [m].
   /// May return true without need.
-  bool reaches(const Vec3f& low, const Vec3f& high) const { return used_ && covers(low, high); }
+  bool reaches(const Vec3f& low, const Vec3f& high) const;
   /// Returns false if no ray of the sun through the box from `low` to `high` in W [m] crosses the
   /// map. May return true without need.
   bool covers(const Vec3f& low, const Vec3f& high) const;
@@ -63,6 +63,8 @@ class ShadowMap {
   float sun_at(const Vec3f& p, float bias) const;
 
  private:
+  // Number of texels along the edge of a square of the mask.
+  static constexpr int kSquare = 16, kSquares = kSize / kSquare;
   // Returns the position of `p` on the map [texels] (x, y), and its height in the direction of the
   // sun [m] (z).
   Vec3f project(const Vec3f& p) const;
@@ -79,6 +81,8 @@ class ShadowMap {
   Eigen::Vector4f plane_s_ = Eigen::Vector4f::Zero(), plane_t_ = Eigen::Vector4f::Zero();
   // For each texel, the height of the caster nearest to the sun, in the direction of the sun [m].
   std::vector<float> nearest_;
+  // 1 for each square of kSquare x kSquare texels of the mask that holds a shadow.
+  std::vector<std::uint8_t> dark_;
   // The mask (255 is fully lit), and temporary memory for its soft edges; one byte per texel.
   std::vector<std::uint8_t> mask_, blur_;
 };

@@ -75,5 +75,18 @@ TEST_F(BodyShadowsTest, WithoutCastersAllIsLit) {
   EXPECT_EQ(shadows_.groups()[0].shadows->sun_at(Vec3f(0, 0, 0), 0), 1);
 }
 
+TEST(ShadowMapTest, ReachesOnlyWhereAShadowFalls) {
+  // The sun overhead, and one caster in the corner of a map of 10 m.
+  Lighting lighting;
+  lighting.to_sun = Vec3f::UnitZ();
+  ShadowMap map;
+  map.begin(lighting, {0, 0, 0}, {10, 10, 2});
+  map.add_triangle({1, 1, 2}, {2, 1, 2}, {1, 2, 2}, false);
+  map.finish();
+  EXPECT_TRUE(map.reaches({0, 0, -1}, {3, 3, 0}));
+  EXPECT_FALSE(map.reaches({5, 5, -1}, {9, 9, 0})) << "on the map, but lit";
+  EXPECT_FALSE(map.reaches({20, 20, -1}, {23, 23, 0})) << "beyond the map";
+}
+
 }  // namespace
 }  // namespace navvy::render
