@@ -22,8 +22,21 @@ class DensityField {
  public:
   /// Number of nodes along the edge of a block, and in a block.
   static constexpr int kEdge = 8, kNodes = kEdge * kEdge * kEdge;
-  /// Reach of a particle [columns]; its share of a node falls smoothly to zero there.
-  static constexpr float kReach = 1.05f;
+  /// Number of nodes along the edge of a block with those around it: one before and two beyond, so
+  /// that the field and its gradient are known in all cells that begin in the block.
+  static constexpr int kWide = kEdge + 3;
+  /// Reach of a particle along each axis [columns]; its share of a node falls smoothly to zero
+  /// there.
+  static constexpr float kReach = 1;
+  /// Distance from a plate below which a particle is beside it [columns].
+  static constexpr float kBeside = 0.75f;
+
+  /// A particle beside a plate.
+  struct AtPlate {
+    Vec3f p_W;     ///< position in W [m]
+    Vec3f away;    ///< unit vector in W from the plate to the particle
+    float offset;  ///< the plate's face is where `away` times the position in W is this [m]
+  };
 
   /// A block of nodes. Node (x, y, z) of a block is at index x + kEdge * (y + kEdge * z).
   struct Block {
@@ -33,16 +46,24 @@ class DensityField {
     int number = 0;
     /// Share of each node that particles fill; above 1 in dense soil.
     std::array<float, kNodes> soil;
-    /// Share of each node that particles and ground fill, at most 1.
-    std::array<float, kNodes> all;
+    /// Share of each node that particles and ground fill, at most 1, with the nodes around the
+    /// block: node (x, y, z), from -1 to kEdge + 1, is at `wide_index`.
+    std::array<float, kWide * kWide * kWide> all;
     /// Index of the soil at each node; meaningful where `soil` is above 0.
     std::array<std::uint8_t, kNodes> kind;
-    /// Particles beside a plate that reach into the block, by index.
-    std::vector<std::uint32_t> at_plates;
+    /// True if particles of more than one kind reach into the block.
+    bool mixed = false;
+    /// Particles beside a plate that reach into the block.
+    std::vector<AtPlate> at_plates;
     /// The block itself and its 26 neighbours, null where there is none: (x + 1) + 3 * ((y + 1) + 3
     /// * (z + 1)) for the offset (x, y, z) of -1 to 1.
     std::array<Block*, 27> around = {};
   };
+
+  /// Returns the index of the node (x, y, z), each from -1 to kEdge + 1, in Block::all.
+  static constexpr std::size_t wide_index(int x, int y, int z) {
+    return static_cast<std::size_t>(x + 1 + kWide * (y + 1 + kWide * (z + 1)));
+  }
 
   /// Builds the field of `particles` over the ground `surface`. Particles without a finite position
   /// are ignored. Both arguments must outlive the next calls.
@@ -54,13 +75,14 @@ class DensityField {
   int blocks() const { return static_cast<int>(used_); }
   /// Returns a block by number, in the order in which particles first reached them.
   const Block& block(int i) const { return *pool_[static_cast<std::size_t>(i)]; }
-  /// Returns the share filled at the node (x, y, z) relative to the first node of `block`; each of
-  /// the three from -kEdge to 2 * kEdge - 1. Without a block there, the ground decides.
-  float all(const Block& block, int x, int y, int z) const;
-  /// Returns the share that particles fill at a node; arguments as for `all`.
+  /// Returns the share that particles fill at the node (x, y, z) relative to the first node of
+  /// `block`; each of the three from -kEdge to 2 * kEdge - 1.
   float soil(const Block& block, int x, int y, int z) const;
+  /// Returns the index of the soil at a node where `soil` is above 0; arguments as for `soil`.
+  std::uint8_t kind(const Block& block, int x, int y, int z) const;
   /// Returns the interpolated share filled at the point `p`, in nodes from the first node of
-  /// `block`, from -kEdge to 2 * kEdge - 2 along each axis.
+  /// `block`, from -kEdge to 2 * kEdge - 1 along each axis. Without a block there, the ground
+  /// decides.
   float sample(const Block& block, const Vec3f& p) const;
   /// Returns the interpolated share filled at the position of a particle in W [m].
   float sample(const Vec3f& p_W) const;
@@ -72,12 +94,14 @@ class DensityField {
  private:
   /// Returns the block at a place, null if there is none.
   Block* find(const Eigen::Vector3i& place) const;
-  /// Returns the block at a place; makes an empty one where there is none.
-  Block& obtain(const Eigen::Vector3i& place);
-  /// Adds one particle to the nodes that it reaches.
-  void add(std::uint32_t index, const Vec3f& p_W, std::uint8_t kind, float weight, bool at_plate);
-  /// Adds the share that the ground fills to all nodes of a block.
-  void add_ground(Block& block) const;
+  /// Returns the block at a place; makes an empty one of the soil `kind` where there is none.
+  Block& obtain(const Eigen::Vector3i& place, std::uint8_t kind);
+  /// Adds one particle to the nodes that it reaches. `at_plate` is null if no plate is beside it.
+  void add(const Vec3f& p_W, std::uint8_t kind, float weight, const AtPlate* at_plate);
+  /// Adds up the shares of particles and ground at the nodes of a block and around it.
+  void fill(Block& block) const;
+  /// Copies the shares of particles at the nodes of a block and around it to Block::all.
+  static void copy_soil(Block& block);
   /// Returns the share that the ground fills at a point of W [m].
   float ground_share(const Vec3f& p_W) const;
   /// Returns the neighbour of `block` that holds the node (x, y, z), and the node's index there.
@@ -85,8 +109,8 @@ class DensityField {
 
   // Ground below and beside the particles.
   const GroundSurface* surface_ = nullptr;
-  // Distance between two nodes, and reach of a particle [m].
-  float spacing_ = 0.05f, reach_ = 0.1f;
+  // Distance between two nodes [m].
+  float spacing_ = 0.05f;
   // Blocks, of which the first `used_` belong to the field; the others keep their memory.
   std::vector<std::unique_ptr<Block>> pool_;
   std::size_t used_ = 0;

@@ -11,6 +11,9 @@
 namespace navvy::render {
 namespace {
 
+/// Distance over which dumped soil is drawn smooth [columns].
+constexpr int kSmoothReach = 2;
+
 /// Returns the slope along one axis from its one-sided slopes: the mean where the ground is smooth,
 /// the flatter one at an edge, so that a floor next to a wall stays lit as a floor.
 float edge_slope(float a, float b) {
@@ -102,12 +105,21 @@ void GroundSurface::start(const scene::FrameGround& ground, const Lighting& ligh
   soil_color_ = ground.soil_color;
   soil_moist_ = ground.soil_moist;
   cut_fill_ = static_cast<float>(ground.cut_fill);
-  for (std::vector<float>* heights : {&height_, &top_, &raw_, &raw_top_, &change_})
+  for (std::vector<float>* heights : {&height_, &top_, &drawn_, &raw_, &raw_top_, &change_})
     heights->assign(columns, 0);
   soil_.assign(columns, 0);
   open_.assign(columns, 255);
   sun_.assign(columns, 255);
   lit_.assign(columns, {});
+  // Patches depend on the place in the world, so that a moved window keeps its appearance.
+  broad_.resize(columns);
+  for (int iy = 0; iy < ny_; ++iy)
+    for (int ix = 0; ix < nx_; ++ix) {
+      const float x = x0_ + (static_cast<float>(ix) + 0.5f) * cell_,
+                  y = y0_ + (static_cast<float>(iy) + 0.5f) * cell_;
+      broad_[index(ix, iy)] =
+          value_noise(x / 3.1f, y / 3.1f, 1) + 0.5f * value_noise(x / 1.1f, y / 1.1f, 2);
+    }
 }
 
 void GroundSurface::measure_relief() {
@@ -171,35 +183,61 @@ void GroundSurface::copy(const scene::FrameGround& ground, const ColumnRect& rec
       const std::size_t i = index(ix, iy);
       // A missing height must not spoil the shadows around it.
       const auto finite = [](float height) { return std::isfinite(height) ? height : 0.0f; };
-      raw_[i] = height_[i] = finite(ground.height[i]);
+      raw_[i] = height_[i] = drawn_[i] = finite(ground.height[i]);
       raw_top_[i] = top_[i] = ground.top.empty() ? raw_[i] : finite(ground.top[i]);
       if (!ground.change.empty()) change_[i] = ground.change[i];
       if (!ground.soil.empty()) soil_[i] = ground.soil[i];
     }
   if (!smooth_) return;
-  const ColumnRect around = rect.grown(1, nx_, ny_);
+  const ColumnRect around = rect.grown(kSmoothReach, nx_, ny_);
   for (int iy = around.y0; iy < around.y1; ++iy)
     for (int ix = around.x0; ix < around.x1; ++ix) smooth(ix, iy);
+  const ColumnRect wider = around.grown(1, nx_, ny_);
+  for (int iy = wider.y0; iy < wider.y1; ++iy)
+    for (int ix = wider.x0; ix < wider.x1; ++ix) bury(ix, iy);
+}
+
+void GroundSurface::bury(int ix, int iy) {
+  const std::size_t i = index(ix, iy);
+  drawn_[i] = height_[i];
+  if (top_[i] <= height_[i]) return;
+  // Not above any neighbour: beside a step, a column is not covered on all sides.
+  float least = top_[i] - kBuried * cell_;
+  for (int y = std::max(0, iy - 1); y <= std::min(ny_ - 1, iy + 1); ++y)
+    for (int x = std::max(0, ix - 1); x <= std::min(nx_ - 1, ix + 1); ++x)
+      least = std::min(least, top_[index(x, y)]);
+  drawn_[i] = std::max(height_[i], least);
 }
 
 void GroundSurface::smooth(int ix, int iy) {
   const std::size_t i = index(ix, iy);
   height_[i] = raw_[i];
   top_[i] = raw_top_[i];
-  if (ix < 1 || iy < 1 || ix + 1 >= nx_ || iy + 1 >= ny_) return;
-  float most = 0, height = 0, top = 0;
+  if (ix < kSmoothReach || iy < kSmoothReach || ix + kSmoothReach >= nx_ ||
+      iy + kSmoothReach >= ny_)
+    return;
+  float most = 0;
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
       const std::size_t k = index(ix + dx, iy + dy);
-      const float share = static_cast<float>((2 - std::abs(dx)) * (2 - std::abs(dy))) / 16;
       most = std::max(most, change_[k] + raw_top_[k] - raw_[k]);
-      height += share * raw_[k];
-      top += share * raw_top_[k];
     }
   // Only where soil was dumped; cuts and the old ground keep their edges.
   const float share = smooth_step(0.01f, 0.05f, most);
-  height_[i] += (height - height_[i]) * share;
-  top_[i] += (top - top_[i]) * share;
+  if (share <= 0) return;
+  constexpr std::array<float, 2 * kSmoothReach + 1> kBinomial = {1.0f / 16, 4.0f / 16, 6.0f / 16,
+                                                                 4.0f / 16, 1.0f / 16};
+  float top = 0;
+  for (int dy = -kSmoothReach; dy <= kSmoothReach; ++dy)
+    for (int dx = -kSmoothReach; dx <= kSmoothReach; ++dx)
+      top += kBinomial[static_cast<std::size_t>(dx + kSmoothReach)] *
+             kBinomial[static_cast<std::size_t>(dy + kSmoothReach)] *
+             raw_top_[index(ix + dx, iy + dy)];
+  const float rise = share * (top - raw_top_[i]);
+  top_[i] += rise;
+  // Columns below active soil are covered by it. Beside them, their low heights would draw a groove
+  // around soil that came to rest.
+  if (raw_top_[i] == raw_[i]) height_[i] += rise;
 }
 
 // Share of the sky that a column sees, from the mean height around it: a box mean by running sums
@@ -287,18 +325,14 @@ Vec3f GroundSurface::albedo(int ix, int iy) const {
   const std::size_t i = index(ix, iy);
   const float fine =
       2.0f * hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 7) - 1.0f;
-  Vec3f p = point(ix, iy);
-  p.z() = top_[i];
-  return weathered(soil_[i], p, change_[i] + raw_top_[i] - raw_[i], fine);
+  return weathered(soil_[i], top_[i], change_[i] + raw_top_[i] - raw_[i], broad_[i], fine);
 }
 
-Vec3f GroundSurface::weathered(std::uint8_t soil, const Vec3f& p, float change, float fine) const {
+Vec3f GroundSurface::weathered(std::uint8_t soil, float height, float change, float broad,
+                               float fine) const {
   const Vec3f base = base_color(soil);
-  // Patches depend on the place in the world, so that a moved window keeps its appearance.
-  const float broad = value_noise(p.x() / 3.1f, p.y() / 3.1f, 1) +
-                      0.5f * value_noise(p.x() / 1.1f, p.y() / 1.1f, 2);
   // The old surface: dry, dusty, patchy, a little lighter with height.
-  const float tint = std::clamp((p.z() - mean_height_) / relief_, -0.5f, 0.5f);
+  const float tint = std::clamp((height - mean_height_) / relief_, -0.5f, 0.5f);
   Vec3f color = desaturate(base, 0.28f) * (1.07f + 0.09f * broad + 0.03f * fine + 0.14f * tint);
   // Freshly cut soil that holds water is darker and more colourful; dumped soil is loose, lighter
   // and uneven. Both begin above the roughness of the ground, or wheels would leave stains.
@@ -329,7 +363,7 @@ Vec3f GroundSurface::loose_albedo(const Vec3f& p, std::uint8_t soil) const {
   // Soil far above the ground is in a bucket or falls: freshly dug.
   constexpr float kInTheAir = 0.3f, kFresh = -0.06f;
   const float change = p.z() > top_[i] + kInTheAir ? kFresh : p.z() - (raw_[i] - change_[i]);
-  return weathered(soil, p, change, fine);
+  return weathered(soil, p.z(), change, broad_[i], fine);
 }
 
 void GroundSurface::paint(const ColumnRect& rect) {
@@ -364,17 +398,37 @@ bool GroundSurface::sample(float x, float y, float& height, float& sun) const {
   return true;
 }
 
-ColumnShares GroundSurface::columns_at(float x, float y) const {
+GroundSurface::Around GroundSurface::around(float x, float y) const {
   const float u = std::clamp((x - x0_) / cell_ - 0.5f, 0.0f, static_cast<float>(nx_) - 1.001f);
   const float v = std::clamp((y - y0_) / cell_ - 0.5f, 0.0f, static_cast<float>(ny_) - 1.001f);
   const int ix = static_cast<int>(u), iy = static_cast<int>(v);
   const float fx = u - static_cast<float>(ix), fy = v - static_cast<float>(iy);
+  const std::size_t first = index(ix, iy), next = index(ix, iy + 1);
+  return {{first, first + 1, next, next + 1},
+          {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
+}
+
+ColumnShares GroundSurface::columns_at(float x, float y) const {
+  const Around at = around(x, y);
   ColumnShares out;
-  for (int c = 0; c < 4; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    out.height[k] = height_[index(ix + (c & 1), iy + (c >> 1))];
-    out.share[k] = ((c & 1) != 0 ? fx : 1 - fx) * ((c >> 1) != 0 ? fy : 1 - fy);
+  out.share = at.share;
+  for (std::size_t c = 0; c < 4; ++c) out.height[c] = height_[at.index[c]];
+  return out;
+}
+
+GroundLook GroundSurface::look_at(float x, float y) const {
+  const Around at = around(x, y);
+  GroundLook out;
+  float low = 1e30f, high = -1e30f;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const float top = top_[at.index[c]];
+    const auto& lit = lit_[at.index[c]];
+    out.height += at.share[c] * top;
+    out.color += (at.share[c] / 255.0f) * Vec3f(lit[0], lit[1], lit[2]);
+    low = std::min(low, top);
+    high = std::max(high, top);
   }
+  out.range = high - low;
   return out;
 }
 

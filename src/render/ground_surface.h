@@ -47,6 +47,13 @@ struct ColumnShares {
   }
 };
 
+/// The drawn ground at a point, interpolated between the four columns around it.
+struct GroundLook {
+  Vec3f color = Vec3f::Zero();  ///< lit colour
+  float height = 0;             ///< height in W with the loose soil on it [m]
+  float range = 0;              ///< range of the heights of the four columns [m]
+};
+
 /// A copy of the ground's heights. For each column it also stores the visible fractions of sun and
 /// sky, and the lit colour.
 ///
@@ -64,6 +71,8 @@ class GroundSurface {
   static constexpr int kShadowReach = 28;
   /// Distance up to which surrounding ground hides the sky [columns].
   static constexpr int kOpenReach = 5;
+  /// Depth below the surface of loose soil at which the columns under it are drawn [columns].
+  static constexpr float kBuried = 0.8f;
 
   /// Creates an empty copy. `smooth`: see above; false for pictures that are measured.
   explicit GroundSurface(bool smooth = true) : smooth_(smooth) {}
@@ -79,12 +88,15 @@ class GroundSurface {
   int ny() const { return ny_; }
   /// Returns the edge length of a column [m].
   float cell() const { return cell_; }
-  /// Returns the height of a column in W [m].
-  float height(int ix, int iy) const { return height_[index(ix, iy)]; }
+  /// Returns the height at which a column is drawn in W [m]. Columns below loose soil are drawn
+  /// close to its surface, so that no wall between them and their neighbours shows through it.
+  float height(int ix, int iy) const { return drawn_[index(ix, iy)]; }
+  /// Returns true if loose soil lies on a column.
+  bool loose(int ix, int iy) const { return raw_top_[index(ix, iy)] != raw_[index(ix, iy)]; }
   /// Returns the centre of a column's surface in W [m].
   Vec3f point(int ix, int iy) const {
     return {x0_ + (static_cast<float>(ix) + 0.5f) * cell_,
-            y0_ + (static_cast<float>(iy) + 0.5f) * cell_, height_[index(ix, iy)]};
+            y0_ + (static_cast<float>(iy) + 0.5f) * cell_, height(ix, iy)};
   }
   /// Returns the lit colour of a column as four bytes, RGBA.
   const std::array<std::uint8_t, 4>& lit(int ix, int iy) const { return lit_[index(ix, iy)]; }
@@ -98,10 +110,19 @@ class GroundSurface {
   /// Returns the columns around the point (x, y) in W [m], without the loose soil on them. A point
   /// outside the ground has those at its edge. The ground must have two columns each way at least.
   ColumnShares columns_at(float x, float y) const;
+  /// Returns the ground at the point (x, y) in W [m]; arguments as for `columns_at`.
+  GroundLook look_at(float x, float y) const;
   /// Returns the unlit colour of loose soil of the kind `soil` at the point `p` in W [m].
   Vec3f loose_albedo(const Vec3f& p, std::uint8_t soil) const;
 
  private:
+  /// The four columns around a point: index of each, and its share as in bilinear interpolation.
+  struct Around {
+    std::array<std::size_t, 4> index;
+    std::array<float, 4> share;
+  };
+  /// Returns the columns around a point; arguments as for `columns_at`.
+  Around around(float x, float y) const;
   /// Returns the index of a column in the arrays below; ix varies fastest.
   std::size_t index(int ix, int iy) const {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) +
@@ -127,15 +148,18 @@ class GroundSurface {
   void find_sun(const ColumnRect& rect);
   /// Computes the lit colours of the columns in `rect`.
   void paint(const ColumnRect& rect);
-  /// Sets the drawn heights of a column that has been copied, from those of its neighbours.
+  /// Sets the heights of a column that has been copied, from those of its neighbours.
   void smooth(int ix, int iy);
+  /// Sets the height at which a column is drawn; its neighbours have been smoothed.
+  void bury(int ix, int iy);
   /// Returns the base colour of a soil; brown without soils.
   Vec3f base_color(std::uint8_t soil) const;
   /// Returns the unlit colour of a column: weathered, dug or dumped soil.
   Vec3f albedo(int ix, int iy) const;
-  /// Returns the unlit colour of soil of the kind `soil` at the point (x, y) and height in W [m].
-  /// `change` is the height above that at the start of the run [m], `fine` noise of -1 to 1.
-  Vec3f weathered(std::uint8_t soil, const Vec3f& p, float change, float fine) const;
+  /// Returns the unlit colour of soil of the kind `soil` at a height in W [m].
+  /// `change` is the height above that at the start of the run [m]; `broad` is the noise of
+  /// patches, `fine` noise of -1 to 1.
+  Vec3f weathered(std::uint8_t soil, float height, float change, float broad, float fine) const;
   /// Returns the unit normal of the surface at a column in W.
   Vec3f normal(int ix, int iy) const;
 
@@ -156,13 +180,15 @@ class GroundSurface {
   std::vector<std::uint8_t> soil_moist_;
   // Scale of the colour by cut and fill [m]; 0: none.
   float cut_fill_ = 0;
-  // Arrays with one entry per column: drawn heights in W without and with loose soil [m], the
-  // frame's heights of both [m], and change of height since the start [m]. `scratch_` is temporary
-  // memory for sums.
-  std::vector<float> height_, top_, raw_, raw_top_, change_, scratch_;
+  // Arrays with one entry per column: smoothed heights in W without and with loose soil [m], height
+  // at which the column is drawn [m], the frame's heights without and with loose soil [m], and
+  // change of height since the start [m]. `scratch_` is temporary memory for sums.
+  std::vector<float> height_, top_, drawn_, raw_, raw_top_, change_, scratch_;
   // Arrays with one entry per column: index of the soil, and visible fractions of sky and sun (0 to
   // 255).
   std::vector<std::uint8_t> soil_, open_, sun_;
+  // Noise of broad patches of each column (-1.5 to 1.5), the same for every frame.
+  std::vector<float> broad_;
   // Lit colour of each column, RGBA.
   std::vector<std::array<std::uint8_t, 4>> lit_;
 };

@@ -44,6 +44,16 @@ Body icosahedron() {
 /// eight faces is drawn larger.
 constexpr float kFarthestCorner = 1.26f * 1.25f;
 
+/// Returns the size of a lump at a point of W, as a share of that in the air: lumps sink into the
+/// ground as they reach it, or the toe of a heap would be a string of beads.
+float size_above(const GroundSurface& surface, const Vec3f& p_W) {
+  // Height above the ground at which a lump is gone, and from which it has its size [columns].
+  constexpr float kSunk = 1.0f, kFree = 1.8f;
+  float height = 0, sun = 1;
+  if (!surface.sample(p_W.x(), p_W.y(), height, sun)) return 1;
+  return smooth_step(kSunk, kFree, (p_W.z() - height) / surface.cell());
+}
+
 /// Returns eight dented and rotated copies of a body, so that neighbours differ. Dents are up to a
 /// quarter of the radius.
 std::vector<Body> variants(const Body& base, std::uint32_t seed) {
@@ -205,6 +215,8 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     lump.center = origin + local;
     const Vec3f around = Vec3f::Constant(2 * radius);
     if (!view.sees(lump.center - around, lump.center + around)) continue;
+    lump.size = size_above(surface, lump.center);
+    if (lump.size <= 0) continue;
     if (hidden(local, view.eye - lump.center)) continue;
     look_around(local, lump.outward, lump.open);
     lump.distance = (lump.center - view.eye).norm();
@@ -217,7 +229,12 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
                     : std::max(particles.clearance[i] / kFarthestCorner, 0.2f * radius);
     lumps_.push_back(lump);
   }
+  add_lumps(lighting, shadows, surface, view, radius);
+  return mesh_;
+}
 
+void ParticleMesh::add_lumps(const Lighting& lighting, const ShadowMap& shadows,
+                             const GroundSurface& surface, const View& view, float radius) {
   // Twenty faces if a particle is larger than a few pixels and the budget allows it, eight
   // otherwise. The budget bounds the cost of a picture when a whole heap is in view.
   const bool many = 20 * lumps_.size() > kTriangleBudget;
@@ -235,11 +252,10 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     if (surface.sample(lump.center.x(), lump.center.y(), height, ground_sun) &&
         lump.center.z() < height + 0.25f)
       sun *= 0.35f + 0.65f * ground_sun;
-    add_lump(lump, std::min(lump.most, radius * (0.45f + 0.50f * unit * unit)),
+    add_lump(lump, lump.size * std::min(lump.most, radius * (0.45f + 0.50f * unit * unit)),
              pixels > 7 && !many ? 1 : 0, albedo, lighting, sun);
   }
   drawn_ = static_cast<int>(lumps_.size());
-  return mesh_;
 }
 
 }  // namespace navvy::render

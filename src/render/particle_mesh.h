@@ -16,7 +16,7 @@ namespace navvy::render {
 void check_sizes(const scene::FrameParticles& particles);
 
 /// Builds one mesh of all visible soil particles that belong to no surface (SoilSurface). Particles
-/// that others enclose, and particles outside the picture, get no triangles.
+/// that others enclose, that lie on the ground, or that are outside the picture get no triangles.
 class ParticleMesh {
  public:
   /// Number of triangles in a picture above which every lump is drawn with 8 instead of 20 faces.
@@ -39,6 +39,8 @@ class ParticleMesh {
     Vec3f center, outward;
     // Visible fraction of the sky (0 to 1), and distance from the camera [m].
     float open, distance;
+    // Size as a share of that in the air (0 to 1).
+    float size;
     // Maximum radius at which the lump does not protrude through a plate of a machine [m].
     float most;
     // Random number that determines the appearance of the lump.
@@ -56,6 +58,9 @@ class ParticleMesh {
   bool hidden(const Vec3f& local, const Vec3f& to_eye) const;
   // Computes Lump::outward and Lump::open of a particle from the occupied cells around it.
   void look_around(const Vec3f& local, Vec3f& outward, float& open) const;
+  // Adds the triangles of all visible lumps of particles of a radius [m].
+  void add_lumps(const Lighting& lighting, const ShadowMap& shadows, const GroundSurface& surface,
+                 const View& view, float radius);
   // Adds the triangles of a lump to the mesh. `detail` is 1 for 20 faces and 0 for 8 faces, `sun`
   // the visible fraction of the sun (0 to 1).
   void add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo,

@@ -15,6 +15,13 @@ constexpr int kEdge = DensityField::kEdge;
 constexpr float kSurface = 0.42f;
 /// A particle where less is filled stands alone and is drawn as a lump.
 constexpr float kTogether = 0.36f;
+/// Height above the ground with its loose soil up to which soil lies on it, and from which it does
+/// not [columns].
+constexpr float kLies = 0.6f, kStands = 1.4f;
+/// Height above the ground at which soil that lies on it is drawn, in front of it [m].
+constexpr float kLift = 0.004f;
+/// Range of the ground around a point up to which it is a slope, and from which a step [columns].
+constexpr float kSlope = 1.2f, kWall = 2.0f;
 /// Cells with less loose soil at all nodes belong to the ground alone.
 constexpr float kLeastSoil = 0.0005f;
 
@@ -22,9 +29,65 @@ std::size_t cell_index(int x, int y, int z) {
   return static_cast<std::size_t>(x + kEdge * (y + kEdge * z));
 }
 
-/// Returns the index of a corner in SoilSurface::Cells::all.
+/// Returns the index of a corner in SoilSurface::Cells::inside.
 std::size_t corner_index(int x, int y, int z) {
   return static_cast<std::size_t>(x + (kEdge + 1) * (y + (kEdge + 1) * z));
+}
+
+/// Returns the sums of the eight corners of each cell of a row of cells, from the four rows of
+/// corners around them.
+std::array<std::uint8_t, kEdge> corners_inside(const std::uint8_t* row) {
+  constexpr std::size_t kY = kEdge + 1, kZ = kY * kY;
+  std::array<std::uint8_t, kEdge + 1> sum;
+  for (std::size_t x = 0; x < kEdge + 1; ++x)
+    sum[x] = static_cast<std::uint8_t>(row[x] + row[x + kY] + row[x + kZ] + row[x + kY + kZ]);
+  std::array<std::uint8_t, kEdge> out;
+  for (std::size_t x = 0; x < kEdge; ++x) out[x] = static_cast<std::uint8_t>(sum[x] + sum[x + 1]);
+  return out;
+}
+
+// Steps along y and z in DensityField::Block::all.
+constexpr int kStepY = DensityField::kWide, kStepZ = kStepY * kStepY;
+
+/// Returns the point (0 to 1) at which the surface crosses a cell: the mean of where it crosses the
+/// edges of the cell. `corner` is the share at the lowest corner.
+Vec3f crossing(const float* corner) {
+  Vec3f sum = Vec3f::Zero();
+  float crossed = 0;
+  for (int a = 0; a < 3; ++a) {
+    constexpr std::array<int, 3> kStep = {1, kStepY, kStepZ};
+    const auto along = static_cast<std::size_t>(a), u = (along + 1) % 3, v = (along + 2) % 3;
+    for (int k = 0; k < 4; ++k) {
+      const float* from = corner + (k & 1) * kStep[u] + (k >> 1) * kStep[v];
+      const float low = from[0] - kSurface, high = from[kStep[along]] - kSurface;
+      if ((low > 0) == (high > 0)) continue;
+      sum[a] += low / (low - high);
+      sum[(a + 1) % 3] += static_cast<float>(k & 1);
+      sum[(a + 2) % 3] += static_cast<float>(k >> 1);
+      crossed += 1;
+    }
+  }
+  return sum / crossed;
+}
+
+/// Returns minus the gradient of the interpolated share at the point `t` (0 to 1) of a cell, by
+/// differences over two nodes.
+Vec3f descent(const float* corner, const Vec3f& t) {
+  constexpr std::array<int, 3> kStep = {1, kStepY, kStepZ};
+  Vec3f out;
+  for (int a = 0; a < 3; ++a) {
+    const int along = kStep[static_cast<std::size_t>(a)],
+              u = kStep[static_cast<std::size_t>((a + 1) % 3)],
+              v = kStep[static_cast<std::size_t>((a + 2) % 3)];
+    const auto fall = [&](const float* p) {
+      const float first = p[-along] - p[along], second = p[0] - p[2 * along];
+      return first + t[a] * (second - first);
+    };
+    const float tu = t[(a + 1) % 3], tv = t[(a + 2) % 3];
+    out[a] = (1 - tv) * ((1 - tu) * fall(corner) + tu * fall(corner + u)) +
+             tv * ((1 - tu) * fall(corner + v) + tu * fall(corner + u + v));
+  }
+  return out;
 }
 
 /// Returns the offset of a corner of a cell; the bits of `corner` are x, y and z.
@@ -50,12 +113,16 @@ const Mesh& SoilSurface::build(const scene::Frame& frame, const Lighting& lighti
   for (std::size_t i = 0; i < count; ++i) {
     const float* local = &particles.position[3 * i];
     const Vec3f p = origin + Vec3f(local[0], local[1], local[2]);
-    if (p.allFinite()) lone_[i] = field_.sample(p) < kTogether ? 1 : 0;
+    if (!p.allFinite()) continue;
+    // Soil on the ground needs no look at the field.
+    float height = 0, sun = 1;
+    const bool lies = surface.sample(p.x(), p.y(), height, sun) && p.z() < height + surface.cell();
+    lone_[i] = !lies && field_.sample(p) < kTogether ? 1 : 0;
   }
   cells_.resize(static_cast<std::size_t>(field_.blocks()));
-  const Scene scene{frame, lighting, shadows, surface};
+  const Scene scene{lighting, shadows, surface};
   for (int b = 0; b < field_.blocks(); ++b) {
-    copy_corners(b);
+    find_inside(b);
     add_vertices(scene, b);
   }
   for (int b = 0; b < field_.blocks(); ++b) add_faces(b);
@@ -68,123 +135,104 @@ GroundPart SoilSurface::part() const {
   return out;
 }
 
-void SoilSurface::copy_corners(int b) {
+void SoilSurface::find_inside(int b) {
   const DensityField::Block& block = field_.block(b);
-  std::array<float, kCorners* kCorners* kCorners>& all = cells_[static_cast<std::size_t>(b)].all;
+  auto& inside = cells_[static_cast<std::size_t>(b)].inside;
+  int count = 0;
   for (int z = 0; z < kCorners; ++z)
     for (int y = 0; y < kCorners; ++y) {
-      float* row = &all[corner_index(0, y, z)];
-      if (y < kEdge && z < kEdge)
-        std::copy_n(&block.all[cell_index(0, y, z)], kEdge, row);
-      else
-        for (int x = 0; x < kEdge; ++x) row[x] = field_.all(block, x, y, z);
-      row[kEdge] = field_.all(block, kEdge, y, z);
+      const float* all = &block.all[DensityField::wide_index(0, y, z)];
+      std::uint8_t* row = &inside[corner_index(0, y, z)];
+      for (int x = 0; x < kCorners; ++x) row[x] = all[x] > kSurface ? 1 : 0;
+      for (int x = 0; x < kCorners; ++x) count += row[x];
     }
+  cells_[static_cast<std::size_t>(b)].crossed =
+      count != 0 && count != static_cast<int>(inside.size());
 }
 
 void SoilSurface::add_vertices(const Scene& scene, int b) {
   const DensityField::Block& block = field_.block(b);
-  const Vec3f first = field_.first_node(block);
   Cells& cells = cells_[static_cast<std::size_t>(b)];
   cells.vertex.fill(kNone);
+  if (!cells.crossed) return;
   for (int z = 0; z < kEdge; ++z)
-    for (int y = 0; y < kEdge; ++y)
-      for (int x = 0; x < kEdge; ++x) {
-        Vec3f local;
-        if (!crossing(block, {x, y, z}, local)) continue;
-        Vec3f normal;
-        for (int a = 0; a < 3; ++a)
-          normal[a] = field_.sample(block, local - Vec3f::Unit(a)) -
-                      field_.sample(block, local + Vec3f::Unit(a));
-        normal = normal.norm() > 1e-6f ? Vec3f(normal.normalized()) : Vec3f(Vec3f::UnitZ());
-        const Vec3f p =
-            kept_off_plates(scene.frame.particles, block, first + field_.spacing() * local);
-        const Vec3f lit = color(scene, block, local, p, normal);
-        cells.vertex[cell_index(x, y, z)] = static_cast<std::uint32_t>(mesh_.vertices.size());
-        mesh_.vertices.push_back(
-            {p.x(), p.y(), p.z(), to_byte(lit.x()), to_byte(lit.y()), to_byte(lit.z()), 255});
-        steep_.push_back(std::abs(normal.z()) < 0.65f ? 1 : 0);
-        low_ = low_.cwiseMin(p);
-        high_ = high_.cwiseMax(p);
-      }
+    for (int y = 0; y < kEdge; ++y) {
+      const auto inside = corners_inside(&cells.inside[corner_index(0, y, z)]);
+      for (int x = 0; x < kEdge; ++x)
+        if (const int count = inside[static_cast<std::size_t>(x)]; count != 0 && count != 8)
+          cells.vertex[cell_index(x, y, z)] = add_vertex(scene, block, x, y, z);
+    }
 }
 
-bool SoilSurface::crossing(const DensityField::Block& block, const Eigen::Vector3i& cell,
-                           Vec3f& p) const {
-  const float* corners = &cells_[static_cast<std::size_t>(block.number)]
-                              .all[corner_index(cell.x(), cell.y(), cell.z())];
-  std::array<float, 8> over;
-  int inside = 0;
+std::uint32_t SoilSurface::add_vertex(const Scene& scene, const DensityField::Block& block, int x,
+                                      int y, int z) {
+  // The corner with most loose soil knows its kind.
+  float most = kLeastSoil;
+  int kind = -1;
   for (int c = 0; c < 8; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    over[k] = corners[corner_index(c & 1, c >> 1 & 1, c >> 2)] - kSurface;
-    inside += over[k] > 0 ? 1 : 0;
+    const Eigen::Vector3i node = Eigen::Vector3i(x, y, z) + corner_of(c);
+    const float soil = field_.soil(block, node.x(), node.y(), node.z());
+    if (soil < most) continue;
+    most = soil;
+    kind = field_.kind(block, node.x(), node.y(), node.z());
   }
-  if (inside == 0 || inside == 8) return false;
-  float most = 0;
-  Vec3f sum = Vec3f::Zero();
-  int crossed = 0;
-  for (int c = 0; c < 8; ++c) {
-    const Eigen::Vector3i node = cell + corner_of(c);
-    most = std::max(most, field_.soil(block, node.x(), node.y(), node.z()));
-    // The three edges that start at this corner.
-    for (int bit = 1; bit < 8; bit *= 2) {
-      if ((c & bit) != 0) continue;
-      const float a = over[static_cast<std::size_t>(c)],
-                  b = over[static_cast<std::size_t>(c | bit)];
-      if ((a > 0) == (b > 0)) continue;
-      const Vec3f from = corner_of(c).cast<float>(), to = corner_of(c | bit).cast<float>();
-      sum += from + a / (a - b) * (to - from);
-      ++crossed;
-    }
-  }
-  if (most < kLeastSoil) return false;
-  p = cell.cast<float>() + sum / static_cast<float>(crossed);
-  return true;
+  if (kind < 0) return kNone;
+  const float* corner = &block.all[DensityField::wide_index(x, y, z)];
+  const Vec3f t = crossing(corner), fall = descent(corner, t);
+  const Vec3f local =
+      Vec3f(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)) + t;
+  const Vec3f normal = fall.norm() > 1e-6f ? Vec3f(fall.normalized()) : Vec3f(Vec3f::UnitZ());
+  Vec3f p = field_.first_node(block) + field_.spacing() * local;
+  const GroundLook ground = scene.surface.look_at(p.x(), p.y());
+  const float apart = apart_from(ground, p.z()), level = ground.height + kLift;
+  p = kept_off_plates(block, {p.x(), p.y(), level + apart * (p.z() - level)});
+  const Vec3f lit =
+      color(scene, {block, local, p, normal, static_cast<std::uint8_t>(kind), ground, apart});
+  mesh_.vertices.push_back(
+      {p.x(), p.y(), p.z(), to_byte(lit.x()), to_byte(lit.y()), to_byte(lit.z()), 255});
+  steep_.push_back(apart > 0.5f && std::abs(normal.z()) < 0.65f ? 1 : 0);
+  low_ = low_.cwiseMin(p);
+  high_ = high_.cwiseMax(p);
+  return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
 }
 
 // A plate is level within the reach of a particle: the point may not be nearer to it than its face.
-Vec3f SoilSurface::kept_off_plates(const scene::FrameParticles& particles,
-                                   const DensityField::Block& block, Vec3f p_W) const {
-  if (particles.away.empty()) return p_W;
+Vec3f SoilSurface::kept_off_plates(const DensityField::Block& block, Vec3f p_W) const {
   const float reach = DensityField::kReach * 2 * field_.spacing();
-  const Vec3f origin = particles.origin.cast<float>();
-  for (const std::uint32_t i : block.at_plates) {
-    const Vec3f p = origin + Eigen::Map<const Vec3f>(&particles.position[3 * i]);
-    if ((p_W - p).squaredNorm() > reach * reach) continue;
-    const Eigen::Map<const Vec3f> away(&particles.away[3 * i]);
-    const float beyond = (p - p_W).dot(away) - particles.clearance[i];
-    if (beyond > 0) p_W += beyond * away;
+  for (const DensityField::AtPlate& at : block.at_plates) {
+    const float beyond = at.offset - at.away.dot(p_W);
+    if (beyond > 0 && (p_W - at.p_W).squaredNorm() <= reach * reach) p_W += beyond * at.away;
   }
   return p_W;
 }
 
-Vec3f SoilSurface::color(const Scene& scene, const DensityField::Block& block, const Vec3f& local,
-                         const Vec3f& p_W, const Vec3f& normal) const {
-  // Soil in the direction of the sky takes light away, the less the farther off it is.
-  float hidden = 0;
-  const Vec3f out = (normal + Vec3f(0, 0, 0.6f)).normalized();
-  hidden += 0.9f * field_.sample(block, local + 1.6f * out);
-  hidden += 0.6f * field_.sample(block, local + 3.2f * out);
-  hidden += 0.4f * field_.sample(block, local + 5.5f * out);
-  const float open = 0.95f * std::clamp(1.0f - hidden, 0.3f, 1.0f);
+// Soil that lies on the ground is drawn as the ground with it is, at its height and in its colour,
+// so that nothing changes where it comes to rest. At steps of the ground there is no such place.
+float SoilSurface::apart_from(const GroundLook& ground, float z) const {
+  const float cell = 2 * field_.spacing();
+  return std::max(smooth_step(kLies, kStands, std::abs(z - ground.height) / cell),
+                  smooth_step(kSlope, kWall, ground.range / cell));
+}
+
+Vec3f SoilSurface::color(const Scene& scene, const Place& at) const {
   // Sampled a little towards the sun, or soil would be in its own shadow.
   const float cell = 2 * field_.spacing();
-  float sun = scene.shadows.sun_at(p_W + 1.2f * cell * scene.lighting.to_sun, 0.6f * cell);
+  const float sun = scene.shadows.sun_at(at.p_W + 1.2f * cell * scene.lighting.to_sun, 0.6f * cell);
+  const Vec3f lying = at.ground.color.cwiseProduct(shadow_tone(scene.lighting, sun));
+  if (at.apart <= 0) return lying;
+  // Soil in the direction of the sky takes light away, the less the farther off it is.
+  const Vec3f out = (at.normal + Vec3f(0, 0, 0.6f)).normalized();
+  const float hidden = 0.9f * field_.sample(at.block, at.local + 1.6f * out) +
+                       0.6f * field_.sample(at.block, at.local + 3.2f * out) +
+                       0.4f * field_.sample(at.block, at.local + 5.5f * out);
+  const float open = 0.95f * std::clamp(1.0f - hidden, 0.3f, 1.0f);
   float height = 0, ground_sun = 1;
-  if (scene.surface.sample(p_W.x(), p_W.y(), height, ground_sun) && p_W.z() < height + 0.15f)
-    sun *= ground_sun;
-  const int x = static_cast<int>(local.x()), y = static_cast<int>(local.y()),
-            z = static_cast<int>(local.z());
-  std::uint8_t soil = block.kind[cell_index(x, y, z)];
-  // The lowest node may be in the air; then one inside the soil knows its kind.
-  for (int c = 1; c < 8 && block.soil[cell_index(x, y, z)] <= 0; ++c) {
-    const Eigen::Vector3i node = Eigen::Vector3i(x, y, z) + corner_of(c);
-    if (node.maxCoeff() >= kEdge) continue;
-    soil = block.kind[cell_index(node.x(), node.y(), node.z())];
-    if (block.soil[cell_index(node.x(), node.y(), node.z())] > 0) break;
-  }
-  return shade(scene.lighting, scene.surface.loose_albedo(p_W, soil), normal, sun, open);
+  if (!scene.surface.sample(at.p_W.x(), at.p_W.y(), height, ground_sun) ||
+      at.p_W.z() >= height + 0.15f)
+    ground_sun = 1;
+  const Vec3f own = shade(scene.lighting, scene.surface.loose_albedo(at.p_W, at.soil), at.normal,
+                          sun * ground_sun, open);
+  return lying + (own - lying) * at.apart;
 }
 
 std::uint32_t SoilSurface::vertex(const DensityField::Block& block,
@@ -202,32 +250,34 @@ std::uint32_t SoilSurface::vertex(const DensityField::Block& block,
 
 void SoilSurface::add_faces(int b) {
   const DensityField::Block& block = field_.block(b);
-  const auto& all = cells_[static_cast<std::size_t>(b)].all;
+  const Cells& cells = cells_[static_cast<std::size_t>(b)];
+  if (!cells.crossed) return;
   constexpr std::array<std::size_t, 3> kStep = {1, kCorners, kCorners * kCorners};
   for (int z = 0; z < kEdge; ++z)
     for (int y = 0; y < kEdge; ++y)
       for (int x = 0; x < kEdge; ++x) {
-        const Eigen::Vector3i node(x, y, z);
-        const std::size_t corner = corner_index(x, y, z);
-        const bool in = all[corner] > kSurface;
-        for (int a = 0; a < 3; ++a) {
-          if (in == (all[corner + kStep[static_cast<std::size_t>(a)]] > kSurface)) continue;
-          // The four cells around the edge.
-          const Eigen::Vector3i u = Eigen::Vector3i::Unit((a + 1) % 3),
-                                v = Eigen::Vector3i::Unit((a + 2) % 3);
-          const std::array<std::uint32_t, 4> q = {vertex(block, node - u - v),
-                                                  vertex(block, node - v), vertex(block, node),
-                                                  vertex(block, node - u)};
-          if (std::find(q.begin(), q.end(), kNone) != q.end()) continue;
-          int steep = 0;
-          for (const std::uint32_t k : q) steep += steep_[k];
-          std::vector<std::uint32_t>& list = steep >= 2 ? mesh_.walls : mesh_.indices;
-          if (in)
-            list.insert(list.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
-          else
-            list.insert(list.end(), {q[0], q[2], q[1], q[0], q[3], q[2]});
-        }
+        const std::uint8_t* corner = &cells.inside[corner_index(x, y, z)];
+        for (std::size_t a = 0; a < 3; ++a)
+          if (corner[0] != corner[kStep[a]])
+            add_face(block, {x, y, z}, static_cast<int>(a), corner[0] != 0);
       }
+}
+
+void SoilSurface::add_face(const DensityField::Block& block, const Eigen::Vector3i& node, int axis,
+                           bool inside) {
+  // The four cells around the edge.
+  const Eigen::Vector3i u = Eigen::Vector3i::Unit((axis + 1) % 3),
+                        v = Eigen::Vector3i::Unit((axis + 2) % 3);
+  const std::array<std::uint32_t, 4> q = {vertex(block, node - u - v), vertex(block, node - v),
+                                          vertex(block, node), vertex(block, node - u)};
+  if (std::find(q.begin(), q.end(), kNone) != q.end()) return;
+  int steep = 0;
+  for (const std::uint32_t k : q) steep += steep_[k];
+  std::vector<std::uint32_t>& list = steep >= 2 ? mesh_.walls : mesh_.indices;
+  if (inside)
+    list.insert(list.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+  else
+    list.insert(list.end(), {q[0], q[2], q[1], q[0], q[3], q[2]});
 }
 
 }  // namespace navvy::render

@@ -37,32 +37,52 @@ class SoilSurface {
   struct Cells {
     // Vertex of each cell.
     std::array<std::uint32_t, DensityField::kNodes> vertex;
-    // Share that soil fills at each corner, x fastest: read many times, so copied together.
-    std::array<float, kCorners * kCorners * kCorners> all;
+    // 1 for each corner within the soil, x fastest.
+    std::array<std::uint8_t, kCorners * kCorners * kCorners> inside;
+    // False if the surface crosses no cell of the block.
+    bool crossed;
   };
   // What the colour of a vertex depends on.
   struct Scene {
-    const scene::Frame& frame;
     const Lighting& lighting;
     const ShadowMap& shadows;
     const GroundSurface& surface;
   };
 
-  // Copies the shares at the corners of a block's cells.
-  void copy_corners(int block);
+  // A vertex of the surface.
+  struct Place {
+    const DensityField::Block& block;
+    // Position in nodes from the first one of `block`, and in W [m].
+    Vec3f local, p_W;
+    // Unit normal in W.
+    Vec3f normal;
+    // Index of the soil.
+    std::uint8_t soil;
+    // Ground below, and how far the vertex is from lying on it (apart_from).
+    GroundLook ground;
+    float apart;
+  };
+
+  // Finds which corners of a block's cells are within the soil.
+  void find_inside(int block);
   // Adds the vertices of all cells of a block that the surface crosses.
   void add_vertices(const Scene& scene, int block);
-  // Returns the point at which the surface crosses a cell, in nodes from the block's first one;
-  // false if it does not, or if no loose soil is near.
-  bool crossing(const DensityField::Block& block, const Eigen::Vector3i& cell, Vec3f& p) const;
+  // Adds the vertex of the cell (x, y, z), which the surface crosses; nothing if no loose soil is
+  // near. Returns its index, or kNone.
+  std::uint32_t add_vertex(const Scene& scene, const DensityField::Block& block, int x, int y,
+                           int z);
   // Moves a point of the surface in W [m] back to the particles' side of the plates beside it.
-  Vec3f kept_off_plates(const scene::FrameParticles& particles, const DensityField::Block& block,
-                        Vec3f p_W) const;
+  Vec3f kept_off_plates(const DensityField::Block& block, Vec3f p_W) const;
+  // Returns how far soil at the height `z` [m] is from lying on the ground below it: 0 to 1.
+  float apart_from(const GroundLook& ground, float z) const;
   // Returns the colour of a vertex.
-  Vec3f color(const Scene& scene, const DensityField::Block& block, const Vec3f& local,
-              const Vec3f& p_W, const Vec3f& normal) const;
+  Vec3f color(const Scene& scene, const Place& at) const;
   // Adds the quadrilaterals across the edges that start at the nodes of a block.
   void add_faces(int block);
+  // Adds the quadrilateral across the edge that starts at a node of a block along `axis`; `inside`:
+  // its first node is within the soil.
+  void add_face(const DensityField::Block& block, const Eigen::Vector3i& node, int axis,
+                bool inside);
   // Returns the vertex of a cell at (x, y, z) from the block's first node, -1 to 7 each.
   std::uint32_t vertex(const DensityField::Block& block, const Eigen::Vector3i& cell) const;
 

@@ -189,8 +189,10 @@ void TerrainMesh::measure(int tx, int ty) {
     for (int ix = x0; ix <= x0 + nodes_x(tx); ++ix) {
       tile.low.z() = std::min(tile.low.z(), surface_.height(ix, iy));
       tile.high.z() = std::max(tile.high.z(), surface_.height(ix, iy));
-      if (ix > x0 && std::abs(surface_.height(ix, iy) - surface_.height(ix - 1, iy)) >
-                         kWallSlope * surface_.cell())
+      // Coarser cells would leave a gap beside loose soil, whose surface is finer.
+      if (surface_.loose(ix, iy) ||
+          (ix > x0 && std::abs(surface_.height(ix, iy) - surface_.height(ix - 1, iy)) >
+                          kWallSlope * surface_.cell()))
         tile.rough = true;
     }
 }

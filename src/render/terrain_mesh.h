@@ -77,7 +77,7 @@ class TerrainMesh {
     Mesh mesh;
     // Level of detail of the mesh; -1 if there is no mesh or if it is out of date.
     int level = -1;
-    // True if the tile contains walls, which need a finer level.
+    // True if the tile contains walls or loose soil, which need a finer level.
     bool rough = false;
     // Corners of the bounding box in W [m].
     Vec3f low, high;
@@ -91,7 +91,7 @@ class TerrainMesh {
   int nodes_y(int tile) const {
     return std::min(surface_.ny() - 1, (tile + 1) * kTile) - tile * kTile;
   }
-  // Computes the bounding box of a tile and whether it contains walls.
+  // Computes the bounding box of a tile and whether it contains walls or loose soil.
   void measure(int tx, int ty);
   // Builds the mesh of a tile at a level of detail.
   void build(int tx, int ty, int level);

@@ -101,6 +101,18 @@ TEST_F(SoilSurfaceTest, ContinuesLevelIntoTheGroundAroundIt) {
   EXPECT_LT(most, 0.5 * kCell);
 }
 
+TEST_F(SoilSurfaceTest, HidesTheColumnsBelowItAlsoAtItsSides) {
+  // A block of active soil of 1 m x 1 m x 1 m, whose sides are steep.
+  frame_.ground.top = frame_.ground.height;
+  for (int iy = 19; iy < 29; ++iy)
+    for (int ix = 19; ix < 29; ++ix) frame_.ground.top[static_cast<std::size_t>(ix + 48 * iy)] = 1;
+  ground_.update(frame_.ground, lighting_);
+  EXPECT_GT(ground_.height(24, 24), 0.9) << "close below the soil";
+  EXPECT_LT(ground_.height(24, 24), 1.0);
+  // Smoothing makes the steps two columns wide.
+  for (const int ix : {16, 17, 18, 19}) EXPECT_LT(ground_.height(ix, 24), 0.5) << ix;
+}
+
 TEST_F(SoilSurfaceTest, StaysOnItsSideOfAPlate) {
   // A plate whose face is at x = 0, and soil that touches it.
   add_soil(frame_.particles, {0.02, -0.4, 1.0}, {0.5, 0.4, 1.6}, kCell);
