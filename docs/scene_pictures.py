@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws docs/scenes.jpg: each shipped scene at its start, as its first camera sees it.
+"""Draws contact sheets of pictures of scenes.
 
-    python3 docs/scene_pictures.py build/release/src/cli/navvy
+    python3 docs/scene_pictures.py build/release/src/cli/navvy   # docs/scenes.jpg
+    python3 docs/scene_pictures.py BEFORE AFTER                  # docs/looks.jpg
 
-Needs python3-pil.
+The first shows each shipped scene at its start, as its first camera sees it. The second shows the
+PNG files that two folders have in common side by side. Needs python3-pil.
 """
 import pathlib
 import subprocess
@@ -17,31 +19,57 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 COLUMNS, WIDTH, HEIGHT, GAP, TITLE = 4, 400, 225, 6, 16
 
 
-def picture_of(program, scene, folder):
-    """Returns the picture of a scene at its start, WIDTH x HEIGHT pixels."""
-    file = pathlib.Path(folder) / "picture.png"
-    subprocess.run([program, "show", scene, "--out", file], check=True, stdout=subprocess.DEVNULL)
+def read(file):
+    """Returns the picture of a file, WIDTH x HEIGHT pixels."""
     with Image.open(file) as image:
         return image.convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS)
 
 
-def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    folder = ROOT / "scenarios"
-    scenes = sorted(folder.rglob("*.sdf"))
-    rows = -(-len(scenes) // COLUMNS)
+def write_sheet(name, pictures):
+    """Writes docs/NAME, a sheet of pairs (title, picture)."""
+    rows = -(-len(pictures) // COLUMNS)
     size = (COLUMNS * (WIDTH + GAP) + GAP, rows * (HEIGHT + TITLE + GAP) + GAP)
     sheet = Image.new("RGB", size, "white")
     draw = ImageDraw.Draw(sheet)
+    for number, (title, picture) in enumerate(pictures):
+        row, column = divmod(number, COLUMNS)
+        x, y = GAP + column * (WIDTH + GAP), GAP + row * (HEIGHT + TITLE + GAP)
+        sheet.paste(picture, (x, y + TITLE))
+        draw.text((x, y + 2), title, fill="black")
+    sheet.save(ROOT / "docs" / name, quality=80, optimize=True)
+
+
+def scenes(program):
+    """Returns the pictures of all shipped scenes at their start."""
+    folder = ROOT / "scenarios"
+    out = []
     with tempfile.TemporaryDirectory() as scratch:
-        for number, scene in enumerate(scenes):
-            row, column = divmod(number, COLUMNS)
-            x, y = GAP + column * (WIDTH + GAP), GAP + row * (HEIGHT + TITLE + GAP)
-            sheet.paste(picture_of(sys.argv[1], scene, scratch), (x, y + TITLE))
-            name = scene.relative_to(folder).with_suffix("").as_posix()
-            draw.text((x, y + 2), name, fill="black")
-    sheet.save(ROOT / "docs" / "scenes.jpg", quality=80, optimize=True)
+        file = pathlib.Path(scratch) / "picture.png"
+        for scene in sorted(folder.rglob("*.sdf")):
+            subprocess.run(
+                [program, "show", scene, "--out", file], check=True, stdout=subprocess.DEVNULL
+            )
+            out.append((scene.relative_to(folder).with_suffix("").as_posix(), read(file)))
+    return out
+
+
+def pairs(before, after):
+    """Returns the pictures that two folders have in common, in turn."""
+    out = []
+    for file in sorted(pathlib.Path(before).glob("*.png")):
+        other = pathlib.Path(after) / file.name
+        if other.exists():
+            out += [(f"{file.stem}, before", read(file)), (f"{file.stem}, after", read(other))]
+    return out
+
+
+def main():
+    if len(sys.argv) == 2:
+        write_sheet("scenes.jpg", scenes(sys.argv[1]))
+    elif len(sys.argv) == 3:
+        write_sheet("looks.jpg", pairs(*sys.argv[1:]))
+    else:
+        sys.exit(__doc__)
 
 
 if __name__ == "__main__":
