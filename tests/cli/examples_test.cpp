@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The example programs of examples/robot, as users run them.
+// The example programs of examples/robot and examples/planner, as users run them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -97,6 +97,42 @@ TEST_F(Examples, AnotherProcessFollowsTheScansOfARun) {
   const auto lines = std::count(text.begin(), text.end(), '\n');
   EXPECT_GT(lines, 10) << text;
   EXPECT_NE(text.find("robot/laser/ranges"), std::string::npos);
+}
+
+// Two digs and the only places for their spoil; then one with a hole.
+TEST_F(Examples, APlanMapBecomesASceneThatTheCheckAccepts) {
+  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "NumPy is missing";
+  const std::string make =
+      "import sys, numpy as n, pathlib as p\n"
+      "f = p.Path(sys.argv[1])\n"
+      "def save(k, image):\n"
+      "    for name in ('images', 'occupancy', 'dumpability'):\n"
+      "        (f / name).mkdir(parents=True, exist_ok=True)\n"
+      "        a = image if name == 'images' else n.full_like(image, name == 'dumpability')\n"
+      "        n.save(f / name / f'img_{k}.npy', a)\n"
+      "a = n.zeros((28, 40), 'int8')\n"
+      "a[12:14, 14:20] = a[17:18, 26:34] = -1\n"
+      "a[5:9, 4:34] = a[20:25, 6:38] = 1\n"
+      "save(1, a)\n"
+      "a[12:15, 14:20] = -1; a[13, 16] = 0\n"
+      "save(2, a)\n";
+  const std::string folder = (directory_ / "maps").string(),
+                    scene = (directory_ / "plan.sdf").string();
+  ASSERT_EQ(wait_for(test::start({"/usr/bin/python3", {"-c", make, folder}, {}})), 0);
+  const auto plan = [&](const char* number) {
+    return example("../planner/dig_plan_map.py",
+                   {folder, "--number", number, "--out", scene, "--navvy", NAVVY_PROGRAM});
+  };
+  ASSERT_EQ(plan("1"), 0) << text_of(directory_ / "example_errors");
+  EXPECT_NE(printed().find("2 digs"), std::string::npos) << printed();
+  ASSERT_EQ(run({"check", scene}), 0) << complained();
+  EXPECT_NE(plan("2"), 0);
+  EXPECT_NE(text_of(directory_ / "example_errors").find("has a hole: divide it"), std::string::npos)
+      << text_of(directory_ / "example_errors");
+  EXPECT_NE(plan("7"), 0);
+  EXPECT_NE(text_of(directory_ / "example_errors").find("img_7.npy: cannot be read"),
+            std::string::npos);
 }
 
 }  // namespace
