@@ -31,8 +31,11 @@ constexpr double kSpread = 0.5;
 // A heap is dug in this sector, to both sides of straight ahead [rad].
 constexpr double kHeapSector = radians(120);
 constexpr double kEvery = 0.25;       // between places to dump [m]
-constexpr double kHollow = 0.12;      // least volume of a hollow that is filled [m3]
+constexpr double kHollow = 0.08;      // least volume of a hollow that is filled [m3]
 constexpr double kLeastScoop = 0.25;  // share of the heaped capacity
+// The first station stands so much farther back, and soil that lies too high so far around the hole
+// is taken off: the digging has left a mound at its near end, where the machine is to drive [m].
+constexpr double kApron = 1, kBorder = 0.8;
 constexpr double kSkin = 0.05;        // of the heap that is left, to spare the ground below [m]
 constexpr double kLeastFault = 0.05;  // volume that is missing [m3]
 constexpr std::int64_t kLevelKeys = 1'000'000;  // keys of levelling are so far from those of scoops
@@ -184,7 +187,7 @@ control::JobPlan plan_fill(const control::PitJob& job, const ArmReach& reach, co
   const Vec2 ahead = turned ? Vec2(-fill.ahead) : fill.ahead;
   const double near = turned ? -high : low, far = turned ? -low : high;
   const double yaw = std::atan2(ahead.y(), ahead.x());
-  for (double done = near; done < far; done += kAdvance) {
+  for (double done = near - kApron; done < far; done += kAdvance) {
     control::JobStation station;
     const double place = done - kFaceBegins - axle_ahead;
     station.at = {fill.middle + (place - fill.middle.dot(ahead)) * ahead, yaw};
@@ -228,7 +231,9 @@ std::vector<control::JobCut> fill_cuts(const control::PitJob& job, const ArmReac
     }
     if (!out.empty()) return out;
   }
-  out = cut_fan(job, fill.hole, reach, X_WB, surface);
+  PitShape around = fill.hole;
+  around.add_border(kBorder, kSkin);
+  out = cut_fan(job, around, reach, X_WB, surface);
   control::PitJob back = job;
   back.dump_from = job.heap->from;
   back.dump_to = job.heap->to;

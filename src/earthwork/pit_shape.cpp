@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace navvy::earthwork {
 
@@ -23,6 +24,22 @@ PitShape::PitShape(const scene::DesignArea& area, const control::SurfaceView& su
         rim_ = std::max(rim_, terrain_.start_height(ix, iy));
         lowest_ = std::min(lowest_, z);
       }
+}
+
+void PitShape::add_border(double width, double skin) {
+  const int n = static_cast<int>(std::ceil(width / cell()));
+  heightfield::DesignSurface wide;
+  const heightfield::CellRect& r = design_.rect;
+  wide.rect =
+      heightfield::CellRect{r.x0 - n, r.y0 - n, r.x1 + n, r.y1 + n}.cut(terrain_.site_rect());
+  for (int iy = wide.rect.y0; iy < wide.rect.y1; ++iy)
+    for (int ix = wide.rect.x0; ix < wide.rect.x1; ++ix) {
+      const Vec2 p = terrain_.origin() + cell() * Vec2(ix + 0.5, iy + 0.5);
+      double z = floor(p);
+      if (std::isnan(z) && is_near(p, width)) z = terrain_.start_height(ix, iy) + skin;
+      wide.z.push_back(static_cast<float>(z));
+    }
+  design_ = std::move(wide);
 }
 
 void PitShape::cover_heap(double skin) {

@@ -25,6 +25,10 @@ class PitShape {
   /// heightfield::design_of_area.
   PitShape(const scene::DesignArea& area, const control::SurfaceView& surface);
 
+  /// Adds a border of this width [m] around the pit, whose floor is `skin` [m] above the ground at
+  /// the start.
+  void add_border(double width, double skin);
+
   /// Makes the shape of a heap on a rectangle: from then on its floor is `skin` [m] above the
   /// surface through the ground at the rectangle's four corners at the start, and its ground is the
   /// heap's present top.

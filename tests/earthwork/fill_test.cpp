@@ -64,8 +64,8 @@ TEST(FillPlan, WorksForwardsFromTheEndThatIsNearer) {
   const heightfield::Ground ground = control::testing::flat_ground();
   const JobPlan plan = plan_of(fill(6), ground);
   EXPECT_EQ(text_of(plan), "");
-  ASSERT_EQ(plan.stations.size(), 2u);
-  EXPECT_LT(plan.stations[0].at.p.x(), -6);
+  ASSERT_EQ(plan.stations.size(), 3u);
+  EXPECT_LT(plan.stations[0].at.p.x(), -7);
   EXPECT_NEAR(plan.stations[1].at.p.x() - plan.stations[0].at.p.x(), 3, 1e-6);
   EXPECT_NEAR(std::remainder(plan.stations[0].at.yaw, 2 * kPi), 0, 1e-9);
   // The same hole from its other end.
@@ -112,7 +112,7 @@ TEST(Backfill, FillsATrenchFromItsOwnSpoil) {
   control::testing::DigRig rig = rig_of(trench(5, 0.5), fill(5));
   // More soil than the trench gives: the rig drops each load on a circle wider than the trench.
   heightfield::SoilLayer layer;
-  layer.mass = mass_units(0.15 * 0.1 * 0.1 * 1700);
+  layer.mass = mass_units(0.25 * 0.1 * 0.1 * 1700);
   for (double x = -5; x < 2; x += 0.1)
     for (double y = 3.4; y < 5.4; y += 0.1) {
       const Vec2i at = rig.ground.column_at(x, y);
