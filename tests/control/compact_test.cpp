@@ -73,13 +73,14 @@ TEST(RollerLanes, LieInTheDirectionThatTheMachineFaces) {
   EXPECT_GT(lanes[0].from.p.x(), 4);
 }
 
-DigRig rig_of(const Compact& step) {
+/// Returns a machine at the beginning of the first lane, turned by `yaw` [rad].
+DigRig rig_of(const Compact& step, double yaw = 0) {
   scene::Program program;
   program.steps = {step};
   const PlanePose at = roller_lanes(roller(), step.polygon, 0).front().from;
   return {roller(),
           program,
-          make_pose(at.p.x(), at.p.y(), 0),
+          make_pose(at.p.x(), at.p.y(), 0, 0, 0, yaw),
           {[](const scene::Machine&) { return std::make_unique<BlockedPlanner>(); }, {}}};
 }
 
@@ -105,16 +106,27 @@ TEST(Compact, DrivesEachLaneToAndFro) {
   EXPECT_GT(value(report, "density_kg_m3"), 1000);
 }
 
-TEST(Compact, LeavesOutLanesThatItCannotReach) {
+TEST(Compact, DrivesToTheOtherEndOfALaneThatLiesAside) {
   const LogLines log;
   Compact step;
   step.polygon = rectangle(4, 1.05);
   step.passes = 2;
   DigRig rig = rig_of(step);
+  ASSERT_TRUE(rig.run(300)) << log.text();
+  EXPECT_EQ(value(rig.op.reports().back(), "lanes"), 2);
+}
+
+TEST(Compact, LeavesOutLanesThatItCannotReach) {
+  const LogLines log;
+  Compact step;
+  step.polygon = rectangle(4, 1.05);
+  step.passes = 2;
+  // Straight ahead lies no lane, and the planner finds no path.
+  DigRig rig = rig_of(step, radians(40));
   EXPECT_FALSE(rig.run(300));
   const StepReport& report = rig.op.reports().back();
   EXPECT_EQ(report.state, StepState::kBlocked);
-  EXPECT_NE(report.reason.find("1 of 2 lanes could not be driven"), std::string::npos)
+  EXPECT_NE(report.reason.find("2 of 2 lanes could not be driven"), std::string::npos)
       << report.reason;
   EXPECT_NE(log.text().find("lane 2 of 2 is left out"), std::string::npos) << log.text();
 }

@@ -26,6 +26,9 @@ constexpr double kBeyond = 0.5;    // of the outermost wheels beyond the polygon
 constexpr double kAtStart = 0.15, kAtHeading = radians(3), kAtEnd = 0.4;
 // A lane begins here already if its start is so near [m].
 constexpr double kHere = 0.2;
+// The drive to a lane is straight if the machine is turned by so little [rad] and so little aside,
+// as a share of the distance along the lane; ends of such drives may be so far off [m].
+constexpr double kTurned = radians(15), kSlant = 0.3, kNearStart = 0.3;
 
 /// Interval of widths that a wheel rolls, and lengths between which wheels stand, in the base's
 /// frame [m].
@@ -46,6 +49,11 @@ Tracks tracks_of(const scene::Machine& machine) {
     out.bands.emplace_back(middle.y() - half.y(), middle.y() + half.y());
     out.rear = std::min(out.rear, middle.x() - half.x());
     out.front = std::max(out.front, middle.x() + half.x());
+    if (!wheel.track) continue;
+    // The box is that of the sprocket.
+    const double idler = (X_BM * wheel.track->p_idler).x(), radius = wheel.track->idler_radius;
+    out.rear = std::min(out.rear, idler - radius);
+    out.front = std::max(out.front, idler + radius);
   }
   return out;
 }
@@ -111,7 +119,9 @@ struct RollingMemory {
   std::int64_t lane = 0;    // index of the present lane
   std::int64_t passes = 0;  // of the present lane
   std::int64_t missed = 0;  // lanes that were left out
+  bool planned = false;     // the drive to the present lane follows a planned path
   double height = 0, density = 0;
+  Vec2 begin = Vec2::Zero();  // where the present drive began
 
   void visit(Archive& a) {
     std::vector<Vec2> places;
@@ -128,6 +138,8 @@ struct RollingMemory {
               "the step has no such lane");
     a("passes", passes);
     a("missed", missed);
+    a("planned", planned);
+    a("begin", begin);
     a("height", height);
     a("density", density);
   }
@@ -170,7 +182,7 @@ class Rolling final : public ActivityWith<RollingMemory> {
   RollerLane& lane() { return m.lanes[static_cast<std::size_t>(m.lane)]; }
   /// Makes the drive of the present phase.
   void make_part() {
-    if (phase_index() == kApproach) {
+    if (phase_index() == kApproach && m.planned) {
       auto step = std::make_unique<GoTo>();
       step->target = lane().from.p;
       step->heading = lane().from.yaw;
@@ -180,16 +192,24 @@ class Rolling final : public ActivityWith<RollingMemory> {
       part_.make(std::move(step), place_);
       return;
     }
-    const bool back = m.passes % 2 != 0;
-    const PlanePose &from = back ? lane().to : lane().from, &to = back ? lane().from : lane().to;
+    const bool approaches = phase_index() == kApproach, back = m.passes % 2 != 0;
+    const PlanePose& to = approaches || back ? lane().from : lane().to;
     const Vec2 ahead(std::cos(to.yaw), std::sin(to.yaw));
     auto step = std::make_unique<DriveTo>();
     step->target = to.p;
     step->heading = to.yaw;
     step->has_heading = true;
-    step->speed = (to.p - from.p).dot(ahead) > 0 ? step_.speed : -step_.speed;
-    step->tolerance = kAtEnd;
+    step->speed = (to.p - m.begin).dot(ahead) > 0 ? step_.speed : -step_.speed;
+    step->tolerance = approaches ? kNearStart : kAtEnd;
     part_.make(std::move(step), place_);
+  }
+  /// Returns true if a straight drive leads to the present lane.
+  bool is_straight(const PlanePose& at) {
+    const PlanePose& to = lane().from;
+    const Vec2 ahead(std::cos(to.yaw), std::sin(to.yaw)), line = to.p - at.p;
+    const double along = std::abs(line.dot(ahead)),
+                 aside = std::sqrt(std::max(0.0, line.squaredNorm() - along * along));
+    return aside <= kSlant * along && std::abs(std::remainder(at.yaw - to.yaw, 2 * kPi)) <= kTurned;
   }
   void next_lane() {
     ++m.lane;
@@ -200,6 +220,12 @@ class Rolling final : public ActivityWith<RollingMemory> {
     const bool failed = control::fell_short(part_->state());
     const std::string reason = part_->reason();
     part_.clear();
+    if (failed && phase_index() == kApproach && !m.planned) {
+      place_.warn("the straight drive to lane " + std::to_string(m.lane + 1) +
+                  " failed, it plans a path: " + reason);
+      m.planned = true;
+      return;
+    }
     if (failed) {
       ++m.missed;
       place_.warn("lane " + std::to_string(m.lane + 1) + " of " + std::to_string(m.lanes.size()) +
@@ -225,8 +251,19 @@ class Rolling final : public ActivityWith<RollingMemory> {
       const Vec2 here = seen.X_WB.translation().head<2>();
       if ((lane().to.p - here).norm() < (lane().from.p - here).norm())
         std::swap(lane().from, lane().to);
-      enter((lane().from.p - here).norm() <= kHere ? kRoll : kApproach);
+      const PlanePose at = plane_pose(seen.X_WB);
+      const bool there = (lane().from.p - here).norm() <= kHere &&
+                         std::abs(std::remainder(at.yaw - lane().from.yaw, 2 * kPi)) <= kTurned;
+      enter(there ? kRoll : kApproach);
+      m.planned = !there && !is_straight(at);
+      if (m.planned) {
+        // From the other end, if only that lies straight ahead or behind.
+        std::swap(lane().from, lane().to);
+        m.planned = !is_straight(at);
+        if (m.planned) std::swap(lane().from, lane().to);
+      }
     }
+    m.begin = seen.X_WB.translation().head<2>();
     make_part();
     part_->begin(seen);
     return false;

@@ -13,7 +13,8 @@ namespace navvy::control {
 
 /// Rolls the ground inside a polygon with the machine's wheels or tracks: drives over it, to and
 /// fro, along lanes parallel to the longest edge that together cover its width. A lane begins clear
-/// of the polygon, at the end that is nearer to the machine, to which a path is planned.
+/// of the polygon, at the end that is nearer to the machine, to which it drives straight or along a
+/// planned path.
 ///
 /// A lane that cannot be driven is left out. The step is done if no lane is left out. Its
 /// measurements include the density of the uppermost soil before and after.
