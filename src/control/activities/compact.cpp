@@ -88,11 +88,29 @@ std::vector<double> offsets(const std::vector<std::pair<double, double>>& bands,
   return out;
 }
 
+// The density is that of the soil down to this depth [m].
+constexpr double kRolled = 0.3;
+
+/// Returns the density of the uppermost soil of a column [kg/m3], and 0 for bare rock.
+double top_density(const std::vector<heightfield::SoilLayer>& layers,
+                   const heightfield::GroundSetup& setup) {
+  double mass = 0, thick = 0;
+  for (auto layer = layers.rbegin(); layer != layers.rend() && thick < kRolled; ++layer) {
+    const double density =
+        setup.soils.at(layer->soil).bank_density / static_cast<double>(layer->specific_volume);
+    const double full = kilograms(layer->mass) / (density * setup.cell * setup.cell);
+    const double part = std::min(full, kRolled - thick);
+    mass += part * density;
+    thick += part;
+  }
+  return thick > 0 ? mass / thick : 0;
+}
+
 /// Mean height [m] and density [kg/m3] of the uppermost soil in a polygon.
 struct TopSoil {
   double height = 0, density = 0;
 };
-TopSoil top_soil_in(const std::vector<Vec2>& polygon, const heightfield::Terrain& site) {
+TopSoil top_soil_in(const std::vector<Vec2>& polygon, const heightfield::Ground& site) {
   TopSoil out;
   double columns = 0;
   Vec2 low = polygon.front(), high = low;
@@ -100,14 +118,15 @@ TopSoil top_soil_in(const std::vector<Vec2>& polygon, const heightfield::Terrain
   const Vec2i from = site.column_at(low.x(), low.y()).cwiseMax(0);
   const Vec2i to =
       site.column_at(high.x(), high.y()).cwiseMin(Vec2i(site.nx(), site.ny()) - Vec2i::Ones());
+  std::vector<heightfield::SoilLayer> layers;
   for (int iy = from.y(); iy <= to.y(); ++iy)
     for (int ix = from.x(); ix <= to.x(); ++ix) {
       if (!scene::contains(polygon, site.origin() + site.cell() * Vec2(ix + 0.5, iy + 0.5)))
         continue;
       ++columns;
       out.height += site.height(ix, iy);
-      out.density += site.setup().soils.at(site.surface_soil(ix, iy)).bank_density /
-                     static_cast<double>(site.specific_volume(ix, iy));
+      site.column(ix, iy, layers);
+      out.density += top_density(layers, site.setup());
     }
   if (columns > 0) out.height /= columns, out.density /= columns;
   return out;

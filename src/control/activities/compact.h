@@ -17,7 +17,7 @@ namespace navvy::control {
 /// planned path.
 ///
 /// A lane that cannot be driven is left out. The step is done if no lane is left out. Its
-/// measurements include the density of the uppermost soil before and after.
+/// measurements include the density of the uppermost 0.3 m before and after.
 struct Compact final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "compact";
