@@ -4,9 +4,11 @@
 
     python3 docs/scene_pictures.py build/release/src/cli/navvy   # docs/scenes.jpg
     python3 docs/scene_pictures.py BEFORE AFTER                  # docs/looks.jpg
+    python3 docs/scene_pictures.py --jobs build/release/src/cli/navvy RUN...  # docs/jobs.jpg
 
 The first shows each shipped scene at its start, as its first camera sees it. The second shows the
-PNG files that two folders have in common side by side. Needs python3-pil.
+PNG files that two folders have in common side by side, the third the last picture of each run
+(`--pictures png`) beside the map of what it has cut and filled. Needs python3-pil.
 """
 import pathlib
 import subprocess
@@ -63,7 +65,26 @@ def pairs(before, after):
     return out
 
 
+def jobs(program, runs):
+    """Returns the last picture and the map of changes of each run, in turn."""
+    out = []
+    with tempfile.TemporaryDirectory() as scratch:
+        file = pathlib.Path(scratch) / "map.png"
+        for run in map(pathlib.Path, runs):
+            subprocess.run(
+                [program, "map", run, "--layers", "change", "--format", "relief", "--out", file],
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
+            last = sorted((run / "frames").glob("*.png"))[-1]
+            out += [(run.name, read(last)), (f"{run.name}: cut and fill", read(file))]
+    return out
+
+
 def main():
+    if sys.argv[1:2] == ["--jobs"] and len(sys.argv) > 3:
+        write_sheet("jobs.jpg", jobs(sys.argv[2], sys.argv[3:]))
+        return
     if len(sys.argv) == 2:
         write_sheet("scenes.jpg", scenes(sys.argv[1]))
     elif len(sys.argv) == 3:
