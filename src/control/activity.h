@@ -169,7 +169,7 @@ class Activity {
   /// Reports an event to the operator in this control step. A second event in the same control step
   /// replaces the first.
   void tell(CycleEvent event) { event_ = event; }
-  /// Marks the step as failed with a state and a reason, which ends the program. Always returns
+  /// Marks the step as failed with a state and a reason, for the operator to act on. Always returns
   /// true, so that an activity can end with `return fall_short(StepState::kBlocked, "...")`.
   bool fall_short(StepState state, std::string reason) {
     state_ = state;

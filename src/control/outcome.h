@@ -13,7 +13,7 @@
 namespace navvy::control {
 
 /// State of a program step. All values after kDone are failures: the step did not reach its aim,
-/// and the program ends.
+/// and the program ends or goes on at the next if_short.
 enum class StepState : std::uint8_t {
   /// The step is in progress.
   kRunning,

@@ -50,15 +50,6 @@ class Fill {
     for (const PitColumn& one : columns) middle += one.p / static_cast<double>(columns.size());
   }
 
-  /// Returns the distances of the ends of the hole along `ahead` [m].
-  std::pair<double, double> ends() const {
-    std::pair<double, double> out(1e9, -1e9);
-    for (const PitColumn& one : columns) {
-      out.first = std::min(out.first, one.p.dot(ahead));
-      out.second = std::max(out.second, one.p.dot(ahead));
-    }
-    return out;
-  }
   /// Returns the volume of the heap [m3].
   double heap_volume() const {
     double out = 0;
@@ -180,7 +171,7 @@ control::JobPlan plan_fill(const control::PitJob& job, const ArmReach& reach, co
   out.volume = fill_volume(job, surface).left;
   const double axle_ahead = reach.arm().X_BS().translation().x();
   const Vec2 start = X_WB.translation().head<2>();
-  const auto [low, high] = fill.ends();
+  const auto [low, high] = fill.hole.span(fill.ahead);
   // From the nearer end.
   const bool turned =
       std::abs(start.dot(fill.ahead) - high) < std::abs(start.dot(fill.ahead) - low);

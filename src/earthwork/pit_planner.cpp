@@ -81,14 +81,10 @@ class PitPlanner final : public control::JobPlanner {
   static std::vector<RetreatAxis> lanes(const control::PitJob& job, const PitShape& pit,
                                         double heading) {
     const Vec2 across(-std::sin(heading), std::cos(heading));
-    double low = 1e9, high = -1e9;
+    const auto [low, high] = pit.span(across);
     Vec2 middle = Vec2::Zero();
     const std::vector<PitColumn> columns = pit.columns();
-    for (const PitColumn& one : columns) {
-      low = std::min(low, one.p.dot(across));
-      high = std::max(high, one.p.dot(across));
-      middle += one.p / static_cast<double>(columns.size());
-    }
+    for (const PitColumn& one : columns) middle += one.p / static_cast<double>(columns.size());
     const int n = std::max(1, static_cast<int>(std::ceil((high - low) / kLane - 1e-9)));
     const double width = (high - low) / n + pit.cell();
     std::vector<RetreatAxis> out;
@@ -101,16 +97,6 @@ class PitPlanner final : public control::JobPlanner {
     return out;
   }
 
-  /// Returns the distance between the outermost columns of a pit along a unit vector [m].
-  static double extent(const PitShape& pit, const Vec2& along) {
-    double low = 1e9, high = -1e9;
-    for (const PitColumn& one : pit.columns()) {
-      low = std::min(low, one.p.dot(along));
-      high = std::max(high, one.p.dot(along));
-    }
-    return high - low;
-  }
-
   /// Returns the stations along the best of the axes parallel and square to the longest edge: those
   /// that leave the least soil, then those with the fewest faults, such as spoil out of reach, then
   /// the fewest stations, then those whose first one is nearest to the machine.
@@ -120,8 +106,8 @@ class PitPlanner final : public control::JobPlanner {
     const double along = std::atan2(longest.y(), longest.x());
     const Digger digger{reach_, pit.ground() + rise + arm_.X_BS().translation().z(),
                         arm_.X_BS().translation().x()};
-    const bool narrow = extent(pit, Vec2(-longest.y(), longest.x()).normalized()) <
-                        kLeastAcross * arm_.bucket().width;
+    const auto [near, far] = pit.span(Vec2(-longest.y(), longest.x()).normalized());
+    const bool narrow = far - near < kLeastAcross * arm_.bucket().width;
     Choice best;
     std::array<double, 4> least{};
     for (int i = 0; i < 4; i += narrow ? 2 : 1) {

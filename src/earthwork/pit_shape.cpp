@@ -87,6 +87,16 @@ std::vector<PitColumn> PitShape::columns() const {
   return out;
 }
 
+std::pair<double, double> PitShape::span(const Vec2& along) const {
+  const double infinite = std::numeric_limits<double>::infinity();
+  std::pair<double, double> out(infinite, -infinite);
+  for (const PitColumn& one : columns()) {
+    out.first = std::min(out.first, one.p.dot(along));
+    out.second = std::max(out.second, one.p.dot(along));
+  }
+  return out;
+}
+
 control::JobVolume PitShape::volume() const {
   control::JobVolume out;
   double squares = 0;

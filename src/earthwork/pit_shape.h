@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/job_planner.h"
@@ -38,6 +39,8 @@ class PitShape {
   double floor(const Vec2& p) const;
   /// Returns the columns of the pit on the present ground.
   std::vector<PitColumn> columns() const;
+  /// Returns the least and the greatest coordinate of its columns along a unit vector [m].
+  std::pair<double, double> span(const Vec2& along) const;
   /// Returns the height of the ground in W at the first corner at the start [m].
   double ground() const { return ground_; }
   /// Returns the highest ground in the pit at the start [m].

@@ -27,8 +27,6 @@ struct Slices {
 };
 
 Slices slices_of(const scene::ProgramStep& step) {
-  // The depth of a backfill is that of the filled ground: it digs a heap.
-  if (std::string_view(step->element()) == "backfill") return {};
   double depth = 0, pass = 0;
   for (const scene::NamedNumber& number :
        scene::numbers_of([&step](scene::Fields& f) { step.describe(f); })) {

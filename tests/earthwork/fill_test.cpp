@@ -17,6 +17,7 @@
 #include "core/saved_state.h"
 #include "earthwork/pit_planner.h"
 #include "log_lines.h"
+#include "plan_text.h"
 
 namespace navvy::earthwork {
 namespace {
@@ -51,13 +52,6 @@ JobPlan plan_of(const Backfill& step, const heightfield::Ground& ground,
                 const Pose& X_WB = make_pose(-10.5, 0, 0)) {
   const auto planner = job_planners()(control::testing::ew180_like());
   return planner->plan(step.job(), X_WB, control::GroundSurfaceView(ground));
-}
-
-std::string text_of(const JobPlan& plan) {
-  std::string out;
-  for (const control::JobFault& one : plan.faults)
-    out += one.part + ": " + one.value + ": " + one.rule + "; " + one.remedy + "\n";
-  return out;
 }
 
 TEST(FillPlan, WorksForwardsFromTheEndThatIsNearer) {

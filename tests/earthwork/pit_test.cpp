@@ -21,6 +21,7 @@
 #include "earthwork/pit_planner.h"
 #include "heightfield/design_surface.h"
 #include "log_lines.h"
+#include "plan_text.h"
 
 namespace navvy::earthwork {
 namespace {
@@ -53,14 +54,6 @@ JobPlan plan_of(const DigArea& step, const Pose& X_WB = make_pose(-10.5, 0, 0)) 
   const heightfield::Ground ground = control::testing::flat_ground();
   const auto planner = job_planners()(control::testing::ew180_like());
   return planner->plan(step.job(), X_WB, control::GroundSurfaceView(ground));
-}
-
-/// Returns the text of all faults of a plan.
-std::string text_of(const JobPlan& plan) {
-  std::string out;
-  for (const control::JobFault& one : plan.faults)
-    out += one.part + ": " + one.value + ": " + one.rule + "; " + one.remedy + "\n";
-  return out;
 }
 
 TEST(PitPlan, DigsTheJobOfRecordFromTwoStationsOnItsAxis) {

@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "control/activities/dig/seen_surface.h"
 #include "control/activities/drive_to.h"
 #include "control/activities/go_to.h"
 #include "control/activities/part.h"

@@ -39,7 +39,7 @@ struct Backfill final : DigArea {
     f("polygon_m", polygon_numbers, {-1e6, 1e6},
       "Coordinates x y in W of the 3 to 1000 corners of the fill; edges must not cross.",
       scene::kNeeded);
-    f("depth_m", depth, {0, 20},
+    f("below_m", depth, {0, 20},
       "Depth of the filled ground below the ground at the start, at the first corner.");
     f("fall_deg", fall, {0, 30}, "Angle by which the filled ground falls.");
     f("fall_yaw_deg", fall_yaw, {-360, 360}, "Direction of the fall, from W's x.");
