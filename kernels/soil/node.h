@@ -12,14 +12,17 @@
 
 #include "soil/layout.h"
 
-// Returns the fraction of a node's kernel, a quadratic B-spline, that is on the node's side of a
-// plane. t: distance of the node in front of the plane [cells]; negative if the node is behind it.
-INLINED columns kernel_share(columns t) {
-  const columns a = clamp(t, -0.5f, 0.5f);
-  const columns low = clamp(1.5f + t, 0.0f, 1.0f), high = clamp(1.5f - t, 0.0f, 1.0f);
-  return 0.5f + a * (0.75f - a * a * (scalar)(1.0 / 3.0)) +
-         (low * low * low - high * high * high) * (scalar)(1.0 / 6.0);
-}
+// Defines a function `name` on values of type `type` that returns the fraction of a node's kernel,
+// a quadratic B-spline, that is on the node's side of a plane. t: distance of the node in front of
+// the plane [cells]; negative if the node is behind it.
+#define KERNEL_SHARE(name, type)                                                      \
+  INLINED type name(type t) {                                                         \
+    const type a = clamp(t, -0.5f, 0.5f);                                             \
+    const type low = clamp(1.5f + t, 0.0f, 1.0f), high = clamp(1.5f - t, 0.0f, 1.0f); \
+    return 0.5f + a * (0.75f - a * a * (scalar)(1.0 / 3.0)) +                         \
+           (low * low * low - high * high * high) * (scalar)(1.0 / 6.0);              \
+  }
+KERNEL_SHARE(kernel_share, columns)
 
 // Returns the free fraction of a node above ground and beside a plate, at least
 // SCHEME(min_free_fraction). below: height of the node above each of the four columns around it

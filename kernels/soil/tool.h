@@ -163,21 +163,52 @@ typedef struct NodeEdge {
   int tag;
 } NodeEdge;
 
+// One velocity field of a near node that a tool may act on: everything that its impulse depends on
+// except the tool's twist. contact_law.h describes most members (ContactNode).
+typedef struct NodeContact {
+  // Velocity before contact [m/s].
+  float v[3];
+  // Mass [kg].
+  float m;
+  // Lever arm from the tool's origin [m].
+  float r[3];
+  float share;
+  // Unit normal from the plate towards the node.
+  float n[3];
+  float settling;
+  float mu, stick, edge;
+  // CONTACT_PLACE of the field.
+  int place;
+} NodeContact;
+
+// Largest number of contacts of a near block: both fields of all its nodes.
+#define BLOCK_CONTACTS 128
+// Packs the place of a contact: field s (0 front, 1 back) of node n (0 .. 63) in its block, near
+// tool `tool`; edge: 1 if the node is ahead of an edge of a plate, 0 if it is beside a face.
+#define CONTACT_PLACE(s, n, edge, tool) ((s) | (n) << 1 | (edge) << 7 | (tool) << 8)
+#define CONTACT_FIELD(place) ((place)&1)
+#define CONTACT_NODE(place) ((place) >> 1 & 63)
+#define CONTACT_EDGE(place) ((place) >> 7 & 1)
+#define CONTACT_TOOL(place) ((place) >> 8)
+
 // Change of one velocity field of a node by contact.
 typedef struct ContactRecord {
   // Velocity before contact [m/s].
   float before[3];
   // Mass of the field [kg].
   float mass;
-  // Velocity after contact, before the hold of the resting ground [m/s].
+  // Velocity after contact, before the hold of the resting ground [m/s]; that before contact where
+  // the tool did not act.
   float after[3];
   // Normal impulse on the node [N s].
   float push;
+  // CONTACT_PLACE of the field.
+  int place;
 } ContactRecord;
 
 // Number of words of ContactSums, which kernels add word by word.
 #define CONTACT_SUM_WORDS 28
-// Sums over the nodes of a near block, for the solve of a tool's twist.
+// Sums over contacts, for the solve of a tool's twist.
 typedef struct ContactSums {
   // Impulse on the soil: moment about the tool's origin [N m s], then impulse [N s].
   float wrench[6];
@@ -197,7 +228,8 @@ static_assert(sizeof(ShellFeature) == 16 && sizeof(ShellTriangle) == 160 &&
 static_assert(sizeof(ShellRim) == 32 && offsetof(ShellRim, along) == 16);
 static_assert(sizeof(NodeShell) == 32 && offsetof(NodeShell, inset) == 16);
 static_assert(sizeof(EdgeProfile) == 16 * (EDGE_ANGLES + 1) && sizeof(NodeEdge) == 16);
-static_assert(sizeof(ContactRecord) == 32 && offsetof(ContactRecord, after) == 16);
+static_assert(sizeof(NodeContact) == 64 && offsetof(NodeContact, place) == 60);
+static_assert(sizeof(ContactRecord) == 36 && offsetof(ContactRecord, after) == 16);
 static_assert(sizeof(ContactSums) == 4 * CONTACT_SUM_WORDS);
 }  // namespace navvy::soil
 #endif

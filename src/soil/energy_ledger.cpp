@@ -258,25 +258,23 @@ void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after
   const std::size_t count = nodes_.size() / 2;
   if (blocks > 0 && !motions.empty()) {
     const auto list = contact.nodes().list.map_read(0, blocks);
-    const auto touched = contact.touched().map_read(0, blocks);
-    const auto split = contact.nodes().split.map_read(0, blocks * BLOCK_NODES);
-    const auto records = contact.records().map_read(0, 2 * blocks * BLOCK_NODES);
-    for (std::size_t i = 0; i < 2 * blocks * BLOCK_NODES; ++i) {
-      const std::size_t node = i / 2, block = node / BLOCK_NODES;
-      // Records of blocks that no tool touched are those of an earlier step.
-      if (touched[block] == 0) continue;
-      const ContactRecord& record = records[i];
-      const std::size_t at = static_cast<std::size_t>(list[block]) * BLOCK_NODES +
-                             node % BLOCK_NODES + (i % 2) * count;
-      double gain = 0;
-      for (int a = 0; a < 3; ++a)
-        // Work on a node: its change of momentum times its mean velocity over the step.
-        gain += static_cast<double>(record.mass) *
-                (static_cast<double>(record.after[a]) - static_cast<double>(record.before[a])) *
-                0.5 * (nodes_[at].v[a] + after[at][a]);
-      got += gain;
-      if (Contact::at_edge(split[node])) edge_got += gain;
-    }
+    const auto first = contact.first().map_read(0, blocks + 1);
+    const auto records = contact.records().map_read(0, static_cast<std::size_t>(first[blocks]));
+    for (std::size_t b = 0; b < blocks; ++b)
+      for (std::int32_t i = first[b]; i < first[b + 1]; ++i) {
+        const ContactRecord& record = records[static_cast<std::size_t>(i)];
+        const std::size_t at = static_cast<std::size_t>(list[b]) * BLOCK_NODES +
+                               static_cast<std::size_t>(CONTACT_NODE(record.place)) +
+                               static_cast<std::size_t>(CONTACT_FIELD(record.place)) * count;
+        double gain = 0;
+        for (int a = 0; a < 3; ++a)
+          // Work on a node: its change of momentum times its mean velocity over the step.
+          gain += static_cast<double>(record.mass) *
+                  (static_cast<double>(record.after[a]) - static_cast<double>(record.before[a])) *
+                  0.5 * (nodes_[at].v[a] + after[at][a]);
+        got += gain;
+        if (CONTACT_EDGE(record.place) != 0) edge_got += gain;
+      }
   }
   account_.tools += work;
   account_.edge += edge_work - edge_got;

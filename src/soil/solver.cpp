@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "device/device_error.h"
@@ -244,6 +245,7 @@ void Solver::State::step_particles(double dt, double tool_speed, bool hold,
 void Solver::State::queue(double dt, bool hold) {
   StageClock clock(times, "queue");
   ParticleStore& store = particles.store();
+  contact.nodes().renew = std::exchange(ground_changed, false) || !hold;
   if (!hold) contact.classify(store, transfer);
   transfer.scatter(store, contact.nodes(), dt, frame.cell, world.gravity, hold);
   contact.solve(store, transfer, dt);
@@ -368,8 +370,10 @@ void Solver::State::update_lists(std::span<const ToolMotion> motions) {
 
 // Also in held steps: a loaded state knows only the ground of its own time.
 void Solver::State::update_floor() {
-  if (floor.update(particles.store().table().active, particles.blocks_changed()))
-    transfer.set_floor(floor.blocks());
+  if (!floor.update(particles.store().table().active, particles.blocks_changed())) return;
+  transfer.set_floor(floor.blocks());
+  // Masses per free volume depend on the ground.
+  ground_changed = true;
 }
 
 void Solver::activate(const heightfield::CellRect& rect, double z_bottom) {

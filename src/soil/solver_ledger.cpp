@@ -139,6 +139,7 @@ void Solver::State::rebuild(Archive& a) {
   transfer.set_blocks(store, contact.near_slot(), store.set_near(contact.near_particle_blocks()));
   floor.update(store.table().active, true);
   transfer.set_floor(floor.blocks());
+  ground_changed = true;
   current.restore(a);
 }
 

@@ -157,6 +157,9 @@ struct Solver::State {
   double few_particles;
   /// True if crowded particles are separated.
   bool crowding = true;
+  /// True if the ground has changed since the last step, or a state was loaded: the next step then
+  /// renews node data even in the middle of a transfer.
+  bool ground_changed = true;
 
   /// Simulated time: the sum of all steps [s].
   double time = 0;

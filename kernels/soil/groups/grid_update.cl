@@ -37,7 +37,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     global const int* restrict list, global const int* restrict around,
     global const ParticleBlock* restrict particle_blocks, global const float4* restrict tiles,
     global const int* restrict used, global const BlockFloor* restrict floors,
-    global float4* restrict velocity, const float4 dv, const int hold) {
+    global float4* restrict velocity, const float4 dv, const int hold, const int renew) {
   const int block = list[get_group_id(0)], me = get_local_id(0);
   float4 sum = 0.0f;
   float mass_above = 0.0f;
@@ -58,14 +58,15 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   if (any(sum != 0.0f)) {
     global const BlockFloor* ground = floors + block;
     const float z = (float)(me >> 4);
-    v = velocity_of(sum, dv, hold, velocity[(size_t)block * BLOCK_NODES + me]);
+    const float4 last = velocity[(size_t)block * BLOCK_NODES + me];
+    v = velocity_of(sum, dv, hold, last);
     const float4 below = z - vload4(me & 15, ground->around[0]);
     const float top = ground->held[me & 15];
     if (z <= top) {
       const float falls = z + 1.0f > top ? falling_share(v.w, mass_above, below) : 0.0f;
       v.xyz = (float3)(v.xy * 0.0f, fmin(v.z, 0.0f) * falls);
     }
-    v.w *= 1.0f / free_fraction_above(below);
+    v.w = renew ? v.w * (1.0f / free_fraction_above(below)) : last.w;
   }
   velocity[(size_t)block * BLOCK_NODES + me] = v;
 }
@@ -78,7 +79,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     global const int* restrict node_split, global float4* restrict field0,
     global float4* restrict field1, global float4* restrict node_surface,
     global const float4* restrict last0, global const float4* restrict last1, const float4 dv,
-    const int hold) {
+    const int hold, const int renew) {
   const int near = get_group_id(0), me = get_local_id(0);
   const int block = list[near];
   float4 neutral = 0.0f, front = 0.0f, back = 0.0f;
@@ -115,5 +116,5 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
                                   : split == 2 ? back + neutral
                                                : back,
                                   dv, hold, last1[near_node]);
-  node_surface[near_node] = mixed ? surface / fmax(sum.w, MASS_QUANTUM) : first;
+  if (renew) node_surface[near_node] = mixed ? surface / fmax(sum.w, MASS_QUANTUM) : first;
 }

@@ -3,15 +3,15 @@
 //
 // In: tiles of the blocks, used = bits of those written; around = 27 block indices per active block
 // (-1: no particles there); floors = resting ground per active block; hold = 1 in a held step:
-// nodes add the impulse of the step to their velocity.
+// nodes add the impulse of the step to their velocity; renew = 0: masses per free volume are those
+// of the step before.
 //
 // Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells,
 // m is divided by the fraction of the node's kernel that lies above the ground (soil/node.h).
 //
 // Parallel: one work-item per active block. Repeatable: neighbours in fixed order. Host:
 // src/soil/particles/grid_update.cpp.
-#include "soil/lanes/lanes.h"
-#include "soil/node.h"
+#include "soil/lanes/node_rows.h"
 #include "soil/place.h"
 
 // Adds the layers z0 .. z1 - 1 of nodes of a neighbour's tile; d: offset of the neighbour. rows: a
@@ -38,57 +38,11 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
   add_layers(tile, rows, d, 0, d.z > 0 ? 3 : 0, d.z < 0 ? 3 : 4);
 }
 
-// Returns v = p / m + g dt of four nodes, added to the velocity before in a held step. Nodes
-// lighter than a mass quantum are empty.
-static inline float16 velocity_of(float16 momentum, float4 dv, int hold,
-                                  global const float* before) {
-  const float4 m = momentum.s37bf;
-  const float4 inv = INVERSE_MASS(m);
-  const float4 on = select((float4)(0.0f), (float4)(1.0f), m > MASS_QUANTUM);
-  float16 v = momentum * (float16)(inv.xxxx, inv.yyyy, inv.zzzz, inv.wwww) +
-              (float16)(dv * on.x, dv * on.y, dv * on.z, dv * on.w);
-  if (hold)
-    v += vload16(0, before) *
-         (float16)((float4)(on.x), (float4)(on.y), (float4)(on.z), (float4)(on.w));
-  return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
-}
-
-// Sets the velocity of nodes at or below the floor to 0, for a row of four, except that the topmost
-// of them lets soil fall that is not on the ground yet [docs/soil.md, resting ground]; divides
-// masses by the free volume above the ground [docs/soil.md, free volume]. above: masses of the
-// nodes above the row.
-static inline float16 held(float16 v, float4 above, global const BlockFloor* ground, int row) {
-  const float z = (float)(row >> 2);
-  const float4 top = vload4(row & 3, ground->held);
-  const int4 fixed = z <= top, topmost = fixed && z + 1.0f > top;
-  const float4 on = select((float4)(1.0f), (float4)(0.0f), fixed);
-  const float16 below = z - vload16(row & 3, ground->around[0]);
-  float4 up = v.s26ae * on;
-  if (any(topmost)) {
-    const float4 falls = (float4)(falling_share(v.s3, above.x, below.lo.lo),  //
-                                  falling_share(v.s7, above.y, below.lo.hi),  //
-                                  falling_share(v.sb, above.z, below.hi.lo),  //
-                                  falling_share(v.sf, above.w, below.hi.hi));
-    up = select(up, fmin(v.s26ae, 0.0f) * falls, topmost);
-  }
-  return (float16)(v.s01 * on.x, up.x, v.s3 * (1.0f / free_fraction_above(below.lo.lo)),  //
-                   v.s45 * on.y, up.y, v.s7 * (1.0f / free_fraction_above(below.lo.hi)),  //
-                   v.s89 * on.z, up.z, v.sb * (1.0f / free_fraction_above(below.hi.lo)),  //
-                   v.scd * on.w, up.w, v.sf * (1.0f / free_fraction_above(below.hi.hi)));
-}
-
-// Returns true when no node of the block is held or has ground in its kernel.
-static inline bool far_above(global const BlockFloor* ground) {
-  float16 highest = vload16(0, ground->around[0]) + 1.5f;
-  for (int i = 1; i < 4; ++i) highest = fmax(highest, vload16(i, ground->around[0]) + 1.5f);
-  return !some(fmax(highest, vload16(0, ground->held)) >= 0.0f);
-}
-
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     global const int* restrict list, global const int* restrict around,
     global const ParticleBlock* restrict particle_blocks, global const float* restrict tiles,
     global const int* restrict used, global const BlockFloor* restrict floors,
-    global float* restrict velocity, const float4 dv, const int hold) {
+    global float* restrict velocity, const float4 dv, const int hold, const int renew) {
   const int block = list[get_global_id(0)];
   float16 rows[16];
   for (int i = 0; i < 16; ++i) rows[i] = 0.0f;
@@ -105,7 +59,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   const bool in_the_open = far_above(ground);
   float16 above[4];
   for (int y = 0; y < 4; ++y) above[y] = 0.0f;
-  for (int n = 9; n < 27 && !in_the_open; ++n) {
+  // Only below the topmost held nodes of the uppermost layer.
+  const float16 top = vload16(0, ground->held);
+  const bool needs_above = !in_the_open && some(top >= 3.0f & top < 4.0f);
+  for (int n = 9; n < 27 && needs_above; ++n) {
     const int particle_block = around[27 * block + n];
     if (particle_block < 0) continue;
     for (int t = 0; used[particle_block] >> t; ++t)
@@ -118,9 +75,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
       PUT16((float16)(0.0f), out + 16 * i);
       continue;
     }
+    const float16 last = vload16(0, out + 16 * i);
     const float16 v = velocity_of(rows[i], dv, hold, out + 16 * i);
     const float16 next = i < 12 ? rows[i + 4] : above[i - 12];
-    PUT16(in_the_open ? v : held(v, next.s37bf, ground, i), out + 16 * i);
+    PUT16(in_the_open ? v : held(v, next.s37bf, last, renew, ground, i), out + 16 * i);
   }
 }
 
@@ -128,8 +86,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
 // [Bardenhagen 2000], neither of them held yet [docs/tools.md, two nodal fields].
 //
 // node_split per near node: 0 one field, 1 split and in front, 2 split and behind. block_surface =
-// a ContactSoil per block; node_surface = its mean by mass at the node. last0 (per active block)
-// and last1 = both fields after contact in the previous step.
+// a ContactSoil per block; node_surface = its mean by mass at the node, kept if renew is 0. last0
+// (per active block) and last1 = both fields after contact in the previous step.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around,
     global const ParticleBlock* restrict particle_blocks, global const float* restrict tiles,
@@ -137,7 +95,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global const int* restrict node_split, global float* restrict field0,
     global float* restrict field1, global float4* restrict node_surface,
     global const float* restrict last0, global const float* restrict last1, const float4 dv,
-    const int hold) {
+    const int hold, const int renew) {
   const int near = get_global_id(0);
   const int block = list[near];
   float16 rows[3][16], total[16];
@@ -146,7 +104,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
   // Where all blocks around have the same surface, as almost everywhere, no mean is needed.
   float4 first = (float4)(0.0f);
   bool mixed = false, any_block = false;
-  for (int n = 0; n < 27; ++n) {
+  for (int n = 0; n < 27 && renew; ++n) {
     const int particle_block = around[27 * block + n];
     if (particle_block < 0) continue;
     if (!any_block) first = block_surface[particle_block];
@@ -158,13 +116,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
   for (int n = 0; n < 27; ++n) {
     const int particle_block = around[27 * block + n];
     if (particle_block < 0) continue;
-    for (int i = 0; i < 16; ++i) total[i] = 0.0f;
+    for (int i = 0; i < 16 && mixed; ++i) total[i] = 0.0f;
     for (int t = 0; used[particle_block] >> t; ++t) {
       if (!(used[particle_block] >> t & 1)) continue;
       global const float* tile =
           tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES);
       add_part(tile, rows[t], neighbour_offset(n));
-      add_part(tile, total, neighbour_offset(n));
+      if (mixed) add_part(tile, total, neighbour_offset(n));
     }
     if (!mixed) continue;
     const float4 here = block_surface[particle_block];
@@ -190,6 +148,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     const float16 back = rows[2][i] + select(none, rows[0][i], s == 2);
     PUT16(velocity_of(select(sum, front, s > 0), dv, hold, from0 + 16 * i), out0 + 16 * i);
     PUT16(velocity_of(select(none, back, s > 0), dv, hold, from1 + 16 * i), out1 + 16 * i);
+    if (!renew) continue;
     const float4 m = fmax(sum.s37bf, MASS_QUANTUM);
     global float4* out = node_surface + near * BLOCK_NODES + 4 * i;
     out[0] = mixed ? weight[4 * i] / m.x : first;

@@ -38,14 +38,14 @@ void GridUpdate::enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNo
                                      static_cast<float>(dv.z()), 0.0f};
   far_kernel_
       .args(far_list_, around_, store.particle_blocks_buffer(), scattered.tiles(), scattered.used(),
-            floors_, velocity_, dv_f, hold ? 1 : 0)
+            floors_, velocity_, dv_f, hold ? 1 : 0, near.renew ? 1 : 0)
       .enqueue_groups(far_);
   // The near kernel leaves the floor to contact_apply: tools act before the ground holds.
   if (near.count == 0) return;
   near_kernel_
       .args(near.list, around_, store.particle_blocks_buffer(), scattered.tiles(), scattered.used(),
             store.block_surface(), near.split, near.before0, near.before1, near.surface, velocity_,
-            near.velocity1, dv_f, hold ? 1 : 0)
+            near.velocity1, dv_f, hold ? 1 : 0, near.renew ? 1 : 0)
       .enqueue_groups(static_cast<std::size_t>(near.count));
 }
 

@@ -17,6 +17,10 @@ namespace navvy::soil {
 struct NearNodes {
   /// Number of near blocks.
   int count = 0;
+  /// True if the step must compute what stays the same for the rest of a transfer: masses per free
+  /// volume, contact properties of nodes and lists of contacts. It is true in the first step of a
+  /// transfer, after a load, and after a change of the ground.
+  bool renew = true;
   /// Active-block index of each near block, ascending (host).
   device::Buffer<std::int32_t> list;
   /// One entry per active block: the block's index in the near arrays, or -1 if the block is not

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "soil/particles/schedule.h"
 #include "soil/scheme.h"
@@ -11,11 +12,8 @@
 namespace navvy::soil {
 namespace {
 
-/// Newton iterations of the two-way solve; contact is piecewise linear, so few are enough.
-constexpr int kSweeps = 3;
-
-/// Returns false for scripted tools: they have no mobility, and nothing is to be solved for.
-bool yields(const ToolMotion& motion) { return motion.inverse_mass.cwiseAbs().maxCoeff() > 0; }
+/// Records beyond those of the last step that are read with them, without another wait.
+constexpr std::size_t kMoreRecords = 64;
 
 }  // namespace
 
@@ -31,8 +29,8 @@ Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, cons
       edges_(device, cell, scheme),
       contact_program_(device, kernel_path(device, "contact"), scheme_options(scheme)),
       edges_kernel_(contact_program_, "edge_nodes"),
-      sums_kernel_(contact_program_, "contact_sums"),
-      twist_kernel_(contact_program_, "contact_twist"),
+      nodes_kernel_(contact_program_, "contact_nodes"),
+      solve_kernel_(contact_program_, "contact_solve"),
       apply_kernel_(contact_program_, "contact_apply") {}
 
 // Triangles are numbered over all tools, so that one number gives triangle and tool.
@@ -47,15 +45,6 @@ int Contact::add_tool(const scene::Shell& shell) {
   edges_.add_tool(*tool.geometry);
   tools_.push_back(std::move(tool));
   return static_cast<int>(tools_.size()) - 1;
-}
-
-template <class... Tail>
-void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail) {
-  kernel
-      .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split,
-            shells_.node_tool(), shells_.node_shell(), nodes_.surface, edges_.force(),
-            shells_.tools(), only, reach_, static_cast<float>(cell_), tail...)
-      .enqueue_groups(static_cast<std::size_t>(nodes_.count));
 }
 
 void Contact::find_edges(ParticleStore& store, Transfer& transfer) {
@@ -73,6 +62,7 @@ void Contact::find_edges(ParticleStore& store, Transfer& transfer) {
 void Contact::solve(ParticleStore& store, Transfer& transfer, double dt) {
   if (nodes_.count == 0) return;
   find_edges(store, transfer);
+  const float patch = reach_.patch;
   // Speeds of the scheme are in units of sqrt(g h), so that they scale with the cell.
   reach_ = {static_cast<float>(scheme_.contact_reach),
             static_cast<float>(scheme_.contact_ramp),
@@ -86,17 +76,23 @@ void Contact::solve(ParticleStore& store, Transfer& transfer, double dt) {
             static_cast<float>(down_.x()),
             static_cast<float>(down_.y()),
             static_cast<float>(down_.z())};
-  // Newton on the twist of each tool that yields.
-  for (const ToolMotion& motion : motions_) {
-    if (!yields(motion)) continue;
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      launch(sums_kernel_, transfer, motion.tool, sums_);
-      twist_kernel_.args(shells_.tools(), motion.tool, sums_, nodes_.count).enqueue_groups(1);
-    }
-  }
-  // Apply all tools at once, with their final twists.
-  launch(apply_kernel_, transfer, -1, transfer.floors(), touched_, records_, transfer.velocity(),
-         nodes_.velocity1);
+  const auto blocks = static_cast<std::size_t>(nodes_.count);
+  // Contacts contain the impulse of adhesion in a step.
+  const int renew = nodes_.renew || patch != reach_.patch ? 1 : 0;
+  nodes_kernel_
+      .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split,
+            shells_.node_tool(), shells_.node_shell(), nodes_.surface, edges_.force(),
+            shells_.tools(), reach_, static_cast<float>(cell_), renew, contacts_, counts_)
+      .enqueue_groups(blocks);
+  solve_kernel_
+      .args(shells_.tools(), static_cast<int>(tools_.size()), contacts_, counts_, nodes_.count,
+            reach_, first_)
+      .enqueue_groups(1);
+  apply_kernel_
+      .args(nodes_.list, nodes_.before0, nodes_.before1, nodes_.split, shells_.node_tool(),
+            shells_.node_shell(), shells_.tools(), contacts_, first_, transfer.floors(), reach_,
+            renew, records_, transfer.velocity(), nodes_.velocity1)
+      .enqueue_groups(blocks);
 }
 
 namespace {
@@ -107,10 +103,8 @@ struct Momentum {
        after_moment = Vec3::Zero();
 };
 
-/// Adds one field of a node; r = lever arm from the tool's origin [m]; edge: it is ahead of an
-/// edge.
-void add_record(const ContactRecord& record, const Vec3& r, bool edge, ToolImpulse& out,
-                Momentum& sum) {
+/// Adds one field of a node; r = lever arm from the tool's origin [m].
+void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Momentum& sum) {
   const Vec3 before(record.before[0], record.before[1], record.before[2]);
   const Vec3 after(record.after[0], record.after[1], record.after[2]);
   const auto mass = static_cast<double>(record.mass), push = static_cast<double>(record.push);
@@ -118,7 +112,7 @@ void add_record(const ContactRecord& record, const Vec3& r, bool edge, ToolImpul
   const Vec3 J = mass * (after - before), L = r.cross(J);
   out.J_W -= J;
   out.L_W -= L;
-  if (edge) {
+  if (CONTACT_EDGE(record.place) != 0) {
     out.J_edge_W -= J;
     out.L_edge_W -= L;
   }
@@ -136,49 +130,51 @@ void add_record(const ContactRecord& record, const Vec3& r, bool edge, ToolImpul
 
 }  // namespace
 
-// Mapped without waiting: the read of the report waits for all three.
+// Mapped without waiting: the read of the report waits for both.
 void Contact::queue_read() {
   if (nodes_.count == 0 || motions_.empty()) return;
   const auto blocks = static_cast<std::size_t>(nodes_.count);
-  results_.emplace(Results{touched_.map_read_later(0, blocks),
-                           shells_.node_tool().map_read_later(0, blocks * BLOCK_NODES),
-                           nodes_.split.map_read_later(0, blocks * BLOCK_NODES),
-                           records_.map_read_later(0, 2 * blocks * BLOCK_NODES)});
+  results_.emplace(
+      Results{first_.map_read_later(0, blocks + 1),
+              records_.map_read_later(0, std::min(expected_, blocks * BLOCK_CONTACTS))});
 }
 
 void Contact::sum_impulses(std::span<ToolImpulse> impulses) {
   if (!results_) return;
-  // The maps end with this copy: the next step may write the buffers.
+  // The maps end with this function: the next step may write the buffers.
   const Results read = std::move(*results_);
   results_.reset();
-  const auto blocks = static_cast<std::size_t>(nodes_.count);
+  const auto count = static_cast<std::size_t>(read.first[read.first.size() - 1]);
+  expected_ = count + count / 2 + kMoreRecords;
+  if (count == 0) return;
+  if (count <= read.records.size())
+    add_records(read.first.span(), read.records.span(), impulses);
+  else
+    add_records(read.first.span(), records_.map_read(0, count).span(), impulses);
+}
+
+void Contact::add_records(std::span<const std::int32_t> first,
+                          std::span<const ContactRecord> records,
+                          std::span<ToolImpulse> impulses) const {
   // A tool without a motion in this step touches nothing.
   std::vector<int> motion_of(tools_.size(), -1);
   for (std::size_t m = 0; m < motions_.size(); ++m)
     motion_of[static_cast<std::size_t>(motions_[m].tool)] = static_cast<int>(m);
   std::vector<Momentum> momentum(motions_.size());
-  const auto& [touched, tool_of, split, records] = read;
-  if (std::none_of(touched.begin(), touched.end(), [](std::int32_t t) { return t != 0; })) return;
-
-  for (std::size_t near = 0; near < blocks; ++near) {
-    if (touched[near] == 0) continue;
+  for (std::size_t near = 0; near + 1 < first.size(); ++near) {
     const BlockKey& key = near_keys_[near];
-    for (std::size_t n = 0; n < BLOCK_NODES; ++n) {
-      const std::size_t i = near * BLOCK_NODES + n;
-      for (std::size_t s = 0; s < 2; ++s) {
-        const ContactRecord& record = records[2 * i + s];
-        // A node with equal velocities before and after was touched by no tool.
-        if (std::equal(std::begin(record.before), std::end(record.before),
-                       std::begin(record.after)))
-          continue;
-        const auto m = static_cast<std::size_t>(motion_of[static_cast<std::size_t>(tool_of[i])]);
-        // Position of the node in doubles: lever arms are as exact as the impulses.
-        const Vec3 grid(kBlockCells * key.x + static_cast<int>(n & 3),
-                        kBlockCells * key.y + static_cast<int>((n >> 2) & 3),
-                        kBlockCells * key.z + static_cast<int>(n >> 4));
-        add_record(record, grid * cell_ + origin_ - impulses[m].p_W, at_edge(split[i]), impulses[m],
-                   momentum[m]);
-      }
+    for (std::int32_t i = first[near]; i < first[near + 1]; ++i) {
+      const ContactRecord& record = records[static_cast<std::size_t>(i)];
+      // A node with equal velocities before and after was touched by no tool.
+      if (std::equal(std::begin(record.before), std::end(record.before), std::begin(record.after)))
+        continue;
+      const auto m =
+          static_cast<std::size_t>(motion_of[static_cast<std::size_t>(CONTACT_TOOL(record.place))]);
+      // Position of the node in doubles: lever arms are as exact as the impulses.
+      const int n = CONTACT_NODE(record.place);
+      const Vec3 grid(kBlockCells * key.x + (n & 3), kBlockCells * key.y + ((n >> 2) & 3),
+                      kBlockCells * key.z + (n >> 4));
+      add_record(record, grid * cell_ + origin_ - impulses[m].p_W, impulses[m], momentum[m]);
     }
   }
   // Impulse on the tools plus momentum change of the nodes: only rounding remains.

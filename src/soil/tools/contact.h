@@ -85,16 +85,11 @@ class Contact {
   const std::vector<int>& near_slot() const { return near_slot_; }
   /// Returns the arrays of the near nodes.
   NearNodes& nodes() { return nodes_; }
-  /// Returns the changes of the near nodes by contact in the last step: for each node the record of
-  /// the front field, then that of the back field. Records are valid only in blocks that touched()
-  /// flags.
+  /// Returns the contacts of the last step and their changes of the nodes: those of near block b
+  /// are records()[first()[b]] .. records()[first()[b + 1] - 1], in ascending order of nodes.
   const device::Buffer<ContactRecord>& records() const { return records_; }
-  /// Returns one flag per near block: not 0 if contact changed a node of the block in the last
-  /// step.
-  const device::Buffer<std::int32_t>& touched() const { return touched_; }
-  /// Returns true if a record of a near node whose NearNodes::split is `split` is that of an edge:
-  /// nodes with one velocity field have no contact with faces.
-  static bool at_edge(std::int32_t split) { return split == 0; }
+  /// Returns the index of the first record of each near block, and the number of all records.
+  const device::Buffer<std::int32_t>& first() const { return first_; }
 
   /// Queues the kernels that find signed distances of near nodes and sides of particles, and that
   /// push particles out of plates. Push distances and crossings are added to the transfer's report.
@@ -137,10 +132,9 @@ class Contact {
  private:
   /// Contact results of a step, mapped for the host.
   struct Results {
-    /// `touched`: one flag per near block. `tool_of`: tool index of each near node, -1 if no tool
-    /// is near. `split`: NearNodes::split.
-    device::Mapped<const std::int32_t> touched, tool_of, split;
-    /// Two records per near node: front field, back field.
+    /// Index of the first record of each near block, and the number of all records.
+    device::Mapped<const std::int32_t> first;
+    /// Records of the contacts, as many as were expected.
     device::Mapped<const ContactRecord> records;
   };
   /// State of one registered tool.
@@ -198,10 +192,10 @@ class Contact {
   void upload_tools();
   /// Returns tool `index` in the form that the kernels read, with the tool's current twist.
   Tool tool_now(std::size_t index) const;
-  /// Queues a contact kernel over all near blocks. `only`: index of the tool whose nodes are
-  /// processed, -1 for all tools; `tail`: further kernel arguments.
-  template <class... Tail>
-  void launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail);
+  /// Adds the records of a step to the impulses on the tools. `first`, `records`: as the functions
+  /// of these names.
+  void add_records(std::span<const std::int32_t> first, std::span<const ContactRecord> records,
+                   std::span<ToolImpulse> impulses) const;
 
   /// Device that runs the kernels.
   device::Device& device_;
@@ -225,10 +219,9 @@ class Contact {
   Edges edges_;
   /// Compiled program of the contact kernels.
   device::KernelProgram contact_program_;
-  /// Contact kernels: edges_kernel_ finds the resistance of edges, sums_kernel_ sums impulses and
-  /// stiffness over nodes, twist_kernel_ updates the twist of a tool, apply_kernel_ applies the
-  /// impulses.
-  device::Kernel edges_kernel_, sums_kernel_, twist_kernel_, apply_kernel_;
+  /// Contact kernels: edges_kernel_ finds the resistance of edges, nodes_kernel_ lists the
+  /// contacts, solve_kernel_ finds the twists of the tools, apply_kernel_ applies the impulses.
+  device::Kernel edges_kernel_, nodes_kernel_, solve_kernel_, apply_kernel_;
   /// One flag per particle block: 1 if near a shell.
   std::vector<std::uint8_t> near_particle_blocks_;
   /// One entry per active block: its index in the near arrays, or -1.
@@ -239,12 +232,17 @@ class Contact {
   NearNodes nodes_;
   /// Contact parameters of the current step.
   ContactReach reach_{};
-  /// Two records per near node, front and back field (kernel contact_apply).
+  /// Contacts of the current step, BLOCK_CONTACTS entries per near block, of which the first
+  /// `counts_` are used (kernel contact_nodes).
+  device::Buffer<NodeContact> contacts_;
+  /// Number of contacts of each near block (kernel contact_nodes).
+  device::Buffer<std::int32_t> counts_;
+  /// Index of the first record of each near block, and the number of all (kernel contact_solve).
+  device::Buffer<std::int32_t> first_;
+  /// Records of the contacts, block by block (kernel contact_apply).
   device::Buffer<ContactRecord> records_;
-  /// One entry per near block: sums for the solve of a tool's motion (kernel contact_sums).
-  device::Buffer<ContactSums> sums_;
-  /// One flag per near block: not 0 if contact changed a node (kernel contact_apply).
-  device::Buffer<std::int32_t> touched_;
+  /// Number of records that the next step is expected to have at most.
+  std::size_t expected_ = 0;
   /// Results between `queue_read` and `sum_impulses`; empty otherwise.
   std::optional<Results> results_;
 };

@@ -220,9 +220,10 @@ void Contact::list_near(const BlockTable& table) {
   ensure(device_, nodes_.before1, 4 * nodes);
   ensure(device_, nodes_.velocity1, 4 * nodes);
   ensure(device_, nodes_.surface, nodes);
-  ensure(device_, records_, 2 * nodes);
-  ensure(device_, sums_, near_list.size());
-  ensure(device_, touched_, near_list.size());
+  ensure(device_, contacts_, near_list.size() * BLOCK_CONTACTS);
+  ensure(device_, records_, near_list.size() * BLOCK_CONTACTS);
+  ensure(device_, counts_, near_list.size());
+  ensure(device_, first_, near_list.size() + 1);
 }
 
 // Floats are relative to the window's corner, a block's, so that they are as exact far from the

@@ -87,7 +87,7 @@ class ShellQuery {
   device::Buffer<ShellTriangle> triangles_;
   /// Free edges of all tools, written by the host.
   device::Buffer<ShellRim> rims_;
-  /// Tools, written by the host. The kernel contact_twist changes their twists.
+  /// Tools, written by the host. The kernel contact_solve changes their twists.
   device::Buffer<Tool> tools_;
   /// Candidate triangles of the near active blocks: block_first_ holds CandidateRows::first,
   /// block_triangles_ holds CandidateRows::triangles.

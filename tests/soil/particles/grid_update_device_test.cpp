@@ -94,6 +94,21 @@ TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
   EXPECT_GT(falling, 10);
 }
 
+TEST(GridUpdate, KeepsTheMassesOfTheFirstStepInLaterStepsOfATransfer) {
+  const std::vector<Particle> particles = strewn(200);
+  std::vector<std::vector<float>> later;
+  for (const bool renew : {true, false}) {
+    Stages stages(particles, 40);
+    nodes_of(stages, Vec3::Zero());
+    stages.near.renew = renew;
+    stages.scatter.enqueue(stages.store, stages.report, kStageStep, kStageCell, true);
+    stages.grid.enqueue(stages.store, stages.scatter, stages.near, Vec3(0, 0, -0.01), true);
+    later.push_back(stages.grid.velocity().read());
+    later.back().resize(4 * BLOCK_NODES * stages.store.table().active.size());
+  }
+  EXPECT_EQ(later[0], later[1]);
+}
+
 TEST(GridUpdate, DoesNothingWithoutBlocks) {
   Stages stages({});
   EXPECT_TRUE(nodes_of(stages, Vec3::Zero()).empty());
