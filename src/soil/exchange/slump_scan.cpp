@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 
 #include "core/archive.h"
 
@@ -18,6 +20,9 @@ constexpr double kGrownActive = 0.5;
 // Both directions along axes and diagonals, in which columns lie at whole steps.
 constexpr int kDirections[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
                                    {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+/// Drops below their limit by more than this are left out by a test in floats [cells]: it is far
+/// above the rounding of drops near a limit.
+constexpr float kRounding = 1e-3F;
 
 }  // namespace
 
@@ -120,6 +125,31 @@ bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const 
   return true;
 }
 
+void SlumpScan::find_drops(int tile_x, int iy, int reach) {
+  const float* rest = rest_.data() + at(tile_x, iy);
+  const float* top = top_.data() + at(tile_x, iy);
+  for (std::size_t d = 0; d < std::size(kDirections); ++d) {
+    const int dx = kDirections[d][0], dy = kDirections[d][1];
+    const bool diagonal = dx != 0 && dy != 0;
+    // Local arrays, so that the compiler can compute several columns at a time.
+    float down[kTile], up[kTile];
+    std::fill(std::begin(down), std::end(down), -1e30F);
+    std::fill(std::begin(up), std::end(up), -1e30F);
+    for (int l = 1; l <= reach; ++l) {
+      const auto limit = static_cast<float>(limit_[diagonal][l]);
+      const std::ptrdiff_t away = static_cast<std::ptrdiff_t>(l) * (dy * kSide + dx);
+      const float *low = top + away, *high = rest - away;
+      for (int c = 0; c < kTile; ++c) {
+        const float drop = rest[c] - low[c] - limit, rise = high[c] - top[c] - limit;
+        down[c] = drop > down[c] ? drop : down[c];
+        up[c] = rise > up[c] ? rise : up[c];
+      }
+    }
+    std::copy(std::begin(down), std::end(down), down_[d].begin());
+    std::copy(std::begin(up), std::end(up), up_[d].begin());
+  }
+}
+
 void SlumpScan::scan(int tx, int ty, const ColumnIndex& index, std::span<const ToolZone> zones,
                      std::vector<OverSteep>& out) {
   read_window(tx, ty, index);
@@ -138,19 +168,22 @@ void SlumpScan::scan(int tx, int ty, const ColumnIndex& index, std::span<const T
   const auto inside = [&](int ix, int iy) {
     return ix >= tile_x && ix < tile_x + kTile && iy >= tile_y && iy < tile_y + kTile;
   };
-  for (int iy = tile_y; iy < tile_y + kTile; ++iy)
+  for (int iy = tile_y; iy < tile_y + kTile; ++iy) {
+    find_drops(tile_x, iy, reach);
     for (int ix = tile_x; ix < tile_x + kTile; ++ix)
-      for (const auto& direction : kDirections) {
-        const int dx = direction[0], dy = direction[1];
+      for (std::size_t d = 0; d < std::size(kDirections); ++d) {
+        const int dx = kDirections[d][0], dy = kDirections[d][1];
+        const auto c = static_cast<std::size_t>(ix - tile_x);
         // The nearest drop of a direction is enough: the columns in between slide with it.
-        for (int l = 1; l <= reach; ++l)
+        for (int l = 1; down_[d][c] > -kRounding && l <= reach; ++l)
           if (look(ix, iy, dx, dy, l, zones, out)) break;
         // From outside, with this column as the low one.
-        for (int l = 1; l <= reach; ++l)
+        for (int l = 1; up_[d][c] > -kRounding && l <= reach; ++l)
           if (!inside(ix - l * dx, iy - l * dy) &&
               look(ix - l * dx, iy - l * dy, dx, dy, l, zones, out))
             break;
       }
+  }
 }
 
 }  // namespace navvy::soil

@@ -87,6 +87,9 @@ class SlumpScan {
  private:
   /// Reads the heights of the tile and its margin, with and without the soil on the columns.
   void read_window(int tx, int ty, const ColumnIndex& index);
+  /// Finds the largest drops from and to the columns of row iy of the tile whose first column is
+  /// tile_x, up to `reach` columns away: fills `down_` and `up_`.
+  void find_drops(int tile_x, int iy, int reach);
   /// Tests the drop from column (ix, iy) to the column `steps` away in direction (dx, dy). If it is
   /// too steep, appends it to `out` and returns true.
   bool look(int ix, int iy, int dx, int dy, int steps, std::span<const ToolZone> zones,
@@ -121,6 +124,10 @@ class SlumpScan {
   std::vector<heightfield::SoilLayer> layers_;
   /// Smallest drop that may be too steep [cells], indexed by [diagonal][steps].
   double limit_[2][SlumpTable::kReach + 1] = {};
+  /// Largest excess of a drop over its limit, for each direction and each column of a row of the
+  /// tile, with the column as the high one (down_) or the low one (up_) [cells]. Most columns have
+  /// no drop near its limit, and need no further test.
+  std::array<std::array<float, kTile>, 8> down_{}, up_{};
 };
 
 }  // namespace navvy::soil
