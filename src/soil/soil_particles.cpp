@@ -12,6 +12,8 @@ namespace navvy::soil {
 
 Particle in_cell_block(Particle p) {
   for (int a = 0; a < 3; ++a) {
+    // Most particles lie in their block.
+    if (p.x[a] >= 0 && p.x[a] < kBlockCells) continue;
     const int d = static_cast<int>(std::floor(p.x[a] / kBlockCells));
     p.block[a] += d;
     p.x[a] -= static_cast<float>(kBlockCells * d);

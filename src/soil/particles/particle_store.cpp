@@ -54,22 +54,28 @@ void put_record(const Particle& p, float* state, std::size_t capacity, std::size
   words[FIELD_ID * capacity] = std::bit_cast<float>(p.id);
 }
 
-/// Reads back what put_record wrote. The block is not in the words: the caller sets it.
-Particle get_record(const float* state, std::size_t capacity, std::size_t slot) {
-  const float* words = state + slot;
-  Particle p;
-#define GET_ONE(NAME, member, rest) p.member = words[FIELD_##NAME * capacity];
+/// Reads back what put_record wrote in consecutive slots, from `words` on. Fields are read one
+/// after another: the fields of one particle lie far apart in memory. Blocks are not in the words:
+/// the caller sets them.
+void get_records(const float* words, std::size_t capacity, std::span<Particle> out) {
+  const auto each = [&](std::size_t field, const auto& set) {
+    const float* from = words + field * capacity;
+    for (std::size_t i = 0; i < out.size(); ++i) set(out[i], from[i]);
+  };
+#define GET_ONE(NAME, member, rest) each(FIELD_##NAME, [](Particle& p, float w) { p.member = w; });
 #define GET_MANY(NAME, member, count, rest) \
-  for (std::size_t k = 0; k < (count); ++k) p.member[k] = words[(FIELD_##NAME + k) * capacity];
+  for (std::size_t k = 0; k < (count); ++k) \
+    each(FIELD_##NAME + k, [k](Particle& p, float w) { p.member[k] = w; });
   FLOAT_FIELDS(GET_ONE, GET_MANY)
 #undef GET_ONE
 #undef GET_MANY
-  p.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
-  const auto tag = std::bit_cast<std::uint32_t>(words[FIELD_TAG * capacity]);
-  p.soil = static_cast<std::uint16_t>(tag & 0xffff);
-  p.side = static_cast<std::uint16_t>(tag >> 16);
-  p.id = std::bit_cast<std::uint32_t>(words[FIELD_ID * capacity]);
-  return p;
+  each(FIELD_MASS, [](Particle& p, float w) { p.mass = std::bit_cast<std::int32_t>(w); });
+  each(FIELD_TAG, [](Particle& p, float w) {
+    const auto tag = std::bit_cast<std::uint32_t>(w);
+    p.soil = static_cast<std::uint16_t>(tag & 0xffff);
+    p.side = static_cast<std::uint16_t>(tag >> 16);
+  });
+  each(FIELD_ID, [](Particle& p, float w) { p.id = std::bit_cast<std::uint32_t>(w); });
 }
 
 /// Returns the number of slots that runs of these counts need, with padding.
@@ -141,8 +147,10 @@ void BlockWords::give(Archive& a, std::vector<Particle>& particles, std::size_t 
               "must be those of as many particles in every field");
     words_.insert(words_.end(), field.begin(), field.end());
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    Particle& p = particles.emplace_back(get_record(words_.data(), count, i));
+  particles.resize(particles.size() + count);
+  const std::span<Particle> added = std::span(particles).last(count);
+  get_records(words_.data(), count, added);
+  for (Particle& p : added) {
     std::copy(block.begin(), block.end(), std::begin(p.block));
     a.require(p.soil < soils, "words", "a particle is of a soil that the scene does not have");
   }
@@ -285,19 +293,20 @@ std::vector<ContactSoil> ParticleStore::surfaces(const std::vector<Particle>& so
 }
 
 std::vector<Particle> ParticleStore::records() const {
-  std::vector<Particle> out;
-  out.reserve(static_cast<std::size_t>(count_));
+  std::vector<Particle> out(static_cast<std::size_t>(count_));
   if (count_ == 0) return out;
   const auto view = state_[now_].map_read();
-  for (std::size_t h = 0; h < particle_blocks_.size(); ++h)
-    for (int i = 0; i < particle_blocks_[h].count; ++i) {
-      Particle p = get_record(view.data(), static_cast<std::size_t>(capacity_[now_]),
-                              static_cast<std::size_t>(particle_blocks_[h].start + i));
-      p.block[0] = table_.particle_blocks[h].x;
-      p.block[1] = table_.particle_blocks[h].y;
-      p.block[2] = table_.particle_blocks[h].z;
-      out.push_back(p);
+  Particle* next = out.data();
+  for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
+    const auto count = static_cast<std::size_t>(particle_blocks_[h].count);
+    get_records(view.data() + particle_blocks_[h].start, static_cast<std::size_t>(capacity_[now_]),
+                {next, count});
+    for (std::size_t i = 0; i < count; ++i, ++next) {
+      next->block[0] = table_.particle_blocks[h].x;
+      next->block[1] = table_.particle_blocks[h].y;
+      next->block[2] = table_.particle_blocks[h].z;
     }
+  }
   return out;
 }
 
