@@ -170,6 +170,27 @@ TEST(ExchangeDeposit, RefusesSoilUnderAToolUntilItLeaves) {
   EXPECT_TRUE(site.particles.empty());
 }
 
+TEST(ExchangeDeposit, SoilComesToRestUnderALoadThatHangsHighAboveIt) {
+  const auto always = [](double, double, double) { return true; };
+  for (const bool high : {true, false}) {
+    Site site({sand()});
+    site.add(fill(site, {16, 16, kFlat}, {20, 20, kFlat + 3}, 1.13f, always));
+    // A bucket with swinging soil, 8 cells above the heap or one.
+    const int bottom = high ? 11 : 4;
+    std::vector<Particle> load =
+        fill(site, {17, 17, kFlat + bottom}, {19, 19, kFlat + bottom + 2}, 1.13f, always);
+    for (Particle& p : load) p.v[0] = 0.5f;
+    site.add(load);
+    ToolRegion tool;
+    tool.min << site.ground.origin() + Vec2(1.6, 1.6), kCell * bottom;
+    tool.max = tool.min + Vec3(0.4, 0.4, 0.4);
+    tool.velocity = Vec3(0.5, 0, 0);
+    EXPECT_EQ(site.checks(2 * kRest, {tool}).deposited_blocks, high ? 1 : 0);
+    if (high) EXPECT_EQ(site.particles.size(), load.size());
+    EXPECT_EQ(site.mass_errors(), site.closed());
+  }
+}
+
 TEST(ExchangeDeposit, WaitsForMovingSoilInAndBesideTheBlock) {
   Site site({sand()});
   site.add(fill(site, {16, 16, kFlat}, {24, 20, kFlat + 2}, 1.13f,
