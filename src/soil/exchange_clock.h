@@ -12,7 +12,8 @@ namespace navvy::soil {
 /// Measures time, steps and tool travel since the last check of the exchange.
 ///
 /// A check is due before the fastest tool has moved 0.3 cells, and at the latest after kSteps
-/// steps. The check itself can only run between two transfers.
+/// steps. The check itself can only run between two transfers. While all tools are high above the
+/// ground, the caller may leave out checks that are due because of their travel only.
 ///
 /// The rules of the exchange are written in simulated time, so a check that comes slightly earlier
 /// or later changes little. A check that comes far too late would let a tool enter ground that is
@@ -27,6 +28,8 @@ class ExchangeClock {
   bool due(double ahead, double cell) const {
     return first_ || steps_ >= kSteps || travel_ + ahead > kTravel * cell;
   }
+  /// Returns true if a check that is due is so because of the travel of the tools only.
+  bool due_by_travel() const { return !first_ && steps_ < kSteps; }
   /// Returns the simulated time since the last check [s].
   double elapsed() const { return elapsed_; }
   /// Adds a step of dt [s] in which the fastest tool moves at `tool_speed` [m/s].

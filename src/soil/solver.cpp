@@ -19,6 +19,11 @@ namespace {
 /// chosen for a slower tool would cost two half steps.
 constexpr double kMostStep = 1.3;
 
+/// A tool that is farther than this from all columns need not be followed closely by the exchange
+/// [cells]: in the steps to the next check a tool of 3 m/s moves by little more than a cell of
+/// 0.1 m, and the rules look a cell below a tool.
+constexpr double kNearColumns = 4;
+
 /// Returns the device, with its driver for few particles: a solver starts without any, and its
 /// programs are then built for the driver that is used first.
 device::Device& for_few(device::Device& device) {
@@ -262,8 +267,25 @@ void Solver::State::exchange_if_due(double dt, double tool_speed,
   const double ahead = std::min(tool_speed * std::max(dt, current.length()),
                                 scheme.max_transfer_motion * frame.cell);
   if (!exchange_clock.due(ahead, frame.cell)) return;
+  if (exchange_clock.due_by_travel() && !near_columns(tool_speed, motions)) return;
   check_exchange(dt, motions);
   exchange_clock.restart();
+}
+
+bool Solver::State::near_columns(double tool_speed, std::span<const ToolMotion> motions) const {
+  return std::any_of(motions.begin(), motions.end(), [&](const ToolMotion& motion) {
+    // The travel is that of faster tools.
+    if (this->tool_speed(motion) < 0.5 * tool_speed) return false;
+    const ToolRegion region = region_of(motion);
+    const double reach = kNearColumns * frame.cell;
+    const Vec2 margin = Vec2::Constant(reach);
+    const Vec2 low_W = region.min.head<2>() - margin, high_W = region.max.head<2>() + margin;
+    const Vec2i low = ground.column_at(low_W.x(), low_W.y()),
+                high = ground.column_at(high_W.x(), high_W.y());
+    const heightfield::CellRect rect =
+        heightfield::CellRect{low.x(), low.y(), high.x() + 1, high.y() + 1}.cut(ground.site_rect());
+    return ground.highest(rect) > region.min.z() - reach;
+  });
 }
 
 ToolRegion Solver::State::region_of(const ToolMotion& motion) const {

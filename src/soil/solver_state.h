@@ -62,6 +62,9 @@ struct Solver::State {
   /// Checks the exchange if its clock says that a check is due. Call it between two transfers only.
   /// `dt`: next step [s]; `tool_speed`: speed of the fastest tool [m/s].
   void exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions);
+  /// Returns true if a tool that moves at least half as fast as the fastest one, of `tool_speed`
+  /// [m/s], is near columns, or may be before the next check that is due by the number of steps.
+  bool near_columns(double tool_speed, std::span<const ToolMotion> motions) const;
   /// Runs one check of the exchange and applies the result: updates resting contacts, adds and
   /// removes particles, and checks the ledger.
   /// @throws SimulationError when the mass ledger is not balanced.
