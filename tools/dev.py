@@ -6,6 +6,7 @@ import benches
 import build
 import campaigns
 import fuzz
+import gpu_check
 import lint
 import nightly
 import packages
@@ -41,6 +42,7 @@ COMMANDS = {
     "validate": validate.validate_command,
     "build": build.build_command,
     "bench": benches.bench_command,
+    "gpu-check": gpu_check.gpu_check_command,
     "docs": docs_command,
     "format": lint.format_command,
     "lint": lint.lint_command,

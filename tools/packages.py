@@ -48,6 +48,8 @@ DOCS = [
     "doxygen",
 ]
 OCLGRIND = ["oclgrind"]
+# libclc of the release of LLVM that clang is of.
+GPU_CHECK = ["clang", "libclc-14", "libclc-14-dev"]
 READERS = ["python3-venv"]
 PYTHON = ["python3-venv", "python3-dev"]
 

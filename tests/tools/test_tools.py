@@ -13,6 +13,7 @@ import benches  # noqa: E402
 import build  # noqa: E402
 import dev  # noqa: E402
 import fuzz  # noqa: E402
+import gpu_check  # noqa: E402
 import lint  # noqa: E402
 import packages  # noqa: E402
 import scene_run  # noqa: E402
@@ -120,6 +121,50 @@ class Lint(unittest.TestCase):
 class Benches(unittest.TestCase):
     def test_machine_name_is_a_folder_name(self):
         self.assertRegex(benches.machine_name(), r"^[a-z0-9]+(-[a-z0-9]+)*$")
+
+
+class GpuCheck(unittest.TestCase):
+    # As clang and ptxas print them.
+    CODE = (
+        "define dso_local void @scatter(float addrspace(1)* noundef %a) #0 "
+        "!kernel_arg_type !4 !reqd_work_group_size !7 {\n"
+        "!4 = !{!\"float*\"}\n!7 = !{i32 72, i32 3, i32 1}\n"
+    )
+    PTX = ".visible .entry scatter(\n\t.param .u64 scatter_param_0\n)\n{\n"
+    REPORT = (
+        "ptxas info    : Compiling entry function 'scatter' for 'sm_90'\n"
+        "ptxas info    : Function properties for scatter\n"
+        "    8 bytes stack frame, 4 bytes spill stores, 12 bytes spill loads\n"
+        "ptxas info    : Used 112 registers, used 1 barriers, 25768 bytes smem\n"
+    )
+
+    def test_the_rows_state_what_clang_and_the_assembler_report(self):
+        sizes = gpu_check.group_sizes(self.CODE)
+        self.assertEqual(sizes, {"scatter": 216})
+        self.assertIn(")\n.reqntid 216, 1, 1\n{", gpu_check.with_group_sizes(self.PTX, sizes))
+        (kernel,) = gpu_check.kernels_of(self.REPORT, sizes)
+        self.assertEqual(kernel, gpu_check.Kernel("scatter", 216, 112, 16, 8, 25768))
+
+    def test_the_scarcest_resource_limits_the_groups(self):
+        # Seven warps: 64 // 7 groups by warps, 16 // 7 by registers, 233472 // 26880 by memory.
+        kernel = gpu_check.Kernel("scatter", 216, 112, 0, 0, 25768)
+        self.assertEqual(
+            kernel.limits(), {"warps": 9, "registers": 2, "local memory": 8, "groups": 32}
+        )
+        self.assertEqual(kernel.row()[-3:], (2, "22 %", "registers"))
+        small = gpu_check.Kernel("twist", 28, 40, 0, 0, 0)
+        self.assertEqual(small.row()[-3:], (32, "50 %", "groups"))
+
+    def test_missing_tools_are_an_error_unless_they_may_be_missing(self):
+        packages.enabled, library = False, gpu_check.LIBRARY
+        gpu_check.LIBRARY = pathlib.Path("no/such/library.bc")
+        try:
+            with self.assertRaisesRegex(workspace.DevError, "apt-get install clang libclc-14"):
+                gpu_check.gpu_check_command([])
+            said = printed(gpu_check.gpu_check_command, ["--skip-without-tools"])
+        finally:
+            packages.enabled, gpu_check.LIBRARY = True, library
+        self.assertIn("SKIPPED gpu-check: missing clang and libclc", said)
 
 
 class Fuzz(unittest.TestCase):
