@@ -59,7 +59,7 @@ class Kernel:
     local: int = 0
 
     def limits(self):
-        """Returns the groups that a multiprocessor has room for, by what limits them."""
+        """Returns the groups that a multiprocessor can hold, by what limits them."""
         warps = -(-self.items // LANES)
         each = rounded_up(self.registers * LANES, REGISTERS_AT_ONCE)
         warps_by_registers = REGISTERS // each // WARPS_AT_ONCE * WARPS_AT_ONCE
@@ -224,7 +224,7 @@ def gpu_check_command(arguments):
 
     Uses clang, libclc and ptxas for compute capability 9.0; no GPU and no driver is needed. Fails
     when a kernel does not compile, when it spills more than a few registers, or when a
-    multiprocessor has no room for a group. Occupancy is the share of a multiprocessor's warps that
+    multiprocessor cannot hold a group. Occupancy is the share of a multiprocessor's warps that
     can be resident.
     """
     parser = workspace.parser(gpu_check_command, "gpu-check [--write] [--skip-without-tools]")
@@ -258,7 +258,7 @@ def gpu_check_command(arguments):
         if kernel.spilled > SPILLED_AT_MOST
     ]
     faults += [
-        "no room for a group of %s (%s)" % (kernel.name, row[-1])
+        "no group of %s fits (%s)" % (kernel.name, row[-1])
         for kernel, row in zip(kernels, rows)
         if row[6] == 0
     ]
