@@ -7,10 +7,17 @@
 #include <string_view>
 
 #include "core/file.h"
+#include "core/hash.h"
 #include "device/embedded_private.h"
 
 namespace navvy::device {
 namespace {
+
+/// Returns the folder that replaces the embedded files; empty if there is none.
+std::string replacing_folder() {
+  const char* folder = std::getenv("NAVVY_KERNEL_DIR");
+  return folder == nullptr ? "" : folder;
+}
 
 /// Returns the file that an include line names, or "" for any other line.
 std::string_view included_path(std::string_view line) {
@@ -62,11 +69,11 @@ void expand(const std::string& path, std::string_view text, std::set<std::string
 }  // namespace
 
 std::string kernel_source(const std::string& path) {
-  const char* folder = std::getenv("NAVVY_KERNEL_DIR");
+  const std::string folder = replacing_folder();
   // Read anew at every call: edit a kernel and run again without a build.
-  if (folder != nullptr && *folder != '\0') {
+  if (!folder.empty()) {
     try {
-      const std::vector<char> text = read_file(std::string(folder) + "/" + path);
+      const std::vector<char> text = read_file(folder + "/" + path);
       return std::string(text.begin(), text.end());
     } catch (const FileError& error) {
       throw DeviceError(std::string("kernel file: ") + error.what() +
@@ -85,6 +92,26 @@ std::string expand_includes(const std::string& path, const std::string& text) {
   std::set<std::string> seen;
   std::string out;
   expand(path, text, seen, out);
+  return out;
+}
+
+KernelSources kernel_sources() {
+  KernelSources out;
+  out.folder = replacing_folder();
+  StateHash hash;
+  for (const EmbeddedFile* file = embedded_files(); file->path != nullptr; ++file) {
+    const std::string_view path = file->path;
+    std::string text;
+    try {
+      text = kernel_source(file->path);
+    } catch (const DeviceError&) {
+      // The folder lacks a file: a program that needs it says so when it is built.
+    }
+    if (text != file->text) out.changed.emplace_back(path);
+    hash.bytes(path.data(), path.size());
+    hash.bytes(text.data(), text.size());
+  }
+  out.hash = hash.hex();
   return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "device/device_error.h"
 
@@ -22,5 +23,19 @@ std::string kernel_source(const std::string& path);
 /// conditionals.
 /// @throws DeviceError naming file and line of an include that does not exist
 std::string expand_includes(const std::string& path, const std::string& text);
+
+/// The kernel files as a whole, as programs are built from them at the moment.
+struct KernelSources {
+  /// Hash of the paths and contents of all files.
+  std::string hash;
+  /// Folder that replaces the embedded files (NAVVY_KERNEL_DIR); empty if none does.
+  std::string folder;
+  /// Paths of the files that differ from the embedded ones, or that the folder lacks.
+  std::vector<std::string> changed;
+};
+
+/// Returns hash and origin of the kernel files. Reads all of them if a folder replaces the embedded
+/// ones.
+KernelSources kernel_sources();
 
 }  // namespace navvy::device

@@ -122,9 +122,10 @@ void Recorder::State::write_start() {
 /// Writes what describes the run: its scene, command and version.
 void Recorder::State::write_description() {
   if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
-  write_file_atomically(path("run.json"),
-                        run_json({kRunFormat, navvy_version(), options.command,
-                                  session.world().description().file, session.device_name()}));
+  write_file_atomically(path("run.json"), run_json({kRunFormat, navvy_version(), options.command,
+                                                    session.world().description().file,
+                                                    session.device_name(), device::kernel_sources(),
+                                                    options.schedule, deciding_environment()}));
 }
 
 /// Saves what can be saved when the folder was removed or replaced: open files still hold their

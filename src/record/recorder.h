@@ -41,6 +41,8 @@ struct Options {
   std::string scene_text;
   /// Command line that started the run, beginning with the program, for run.json.
   std::vector<std::string> command;
+  /// Name of the schedule of the soil's kernels (sim::soil_schedule), for run.json.
+  std::string schedule;
 };
 
 /// Returns the estimated wall time [s] for `simulated` more seconds of simulated time at the speed

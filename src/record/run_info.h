@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// run.json: the version, command, scene and device that produced a run's folder, so that the run
-// can be repeated.
+// run.json: the version, command, scene, device, kernels and environment that produced a run's
+// folder, so that the run can be repeated.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
+
+#include "device/source.h"
 
 namespace navvy::record {
 
@@ -26,10 +29,22 @@ struct RunInfo {
   std::string scene;
   /// Name of the OpenCL device that the run used.
   std::string device;
+  /// Kernel files that the run used. The hash is empty in folders of versions that did not record
+  /// it.
+  device::KernelSources kernels;
+  /// Schedule of the soil's kernels: "lanes" or "groups".
+  std::string schedule;
+  /// Environment variables that the run depended on, by name.
+  std::map<std::string, std::string> environment;
 };
 
 /// Returns the version of this library, such as "0.1.0".
 std::string navvy_version();
+
+/// Returns the variables of this process's environment that a run depends on: all that begin with
+/// NAVVY_, POCL_ or OCL_ICD_, and the search paths of scenes. POCL_CACHE_DIR, which the program
+/// sets itself, is not among them.
+std::map<std::string, std::string> deciding_environment();
 
 /// Returns `info` as the text of run.json, with sorted keys.
 std::string run_json(const RunInfo& info);

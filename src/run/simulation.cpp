@@ -10,6 +10,7 @@
 #include "core/saved_state.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
+#include "device/source.h"
 #include "earthwork/pit_planner.h"
 #include "heightfield/change_follower.h"
 #include "planner/map_path_planner.h"
@@ -23,6 +24,7 @@
 #include "record/summary.h"
 #include "run/start_checks.h"
 #include "sensor/make_sensors.h"
+#include "sim/soil_schedule.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::run {
@@ -130,6 +132,8 @@ Simulation::Simulation(scene::Scene scene, SimulationOptions options)
   s.device = s.options.shared_device ? s.options.shared_device
                                      : std::make_shared<device::Device>(s.options.device);
   note("device " + s.device->info().text());
+  const device::KernelSources kernels = device::kernel_sources();
+  if (!kernels.changed.empty()) note(changed_kernels_note(kernels));
   s.session = s.make_session(std::move(scene));
   // Before the recorder, which counts its pictures from the time it finds.
   if (!s.options.resume.empty()) s.session->load(s.options.resume, s.options.resume_anyway);
@@ -160,6 +164,7 @@ void Simulation::State::start_recording(std::unique_ptr<record::RunFolder> folde
   out.particles = options.particles;
   out.scene_text = options.scene_text;
   out.command = options.command;
+  out.schedule = sim::soil_schedule(*device);
   recorder = std::make_unique<record::Recorder>(*session, out, std::move(folder));
 }
 

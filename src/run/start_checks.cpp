@@ -77,4 +77,10 @@ void check_times(const SimulationOptions& options, const session::Session& sessi
            "choose a longer --duration, or an earlier snapshot");
 }
 
+std::string changed_kernels_note(const device::KernelSources& kernels) {
+  const std::size_t more = kernels.changed.size() - 1;
+  return "kernels of '" + kernels.folder + "', not the shipped ones: " + kernels.changed.front() +
+         (more > 0 ? " and " + std::to_string(more) + " more differ" : " differs");
+}
+
 }  // namespace navvy::run

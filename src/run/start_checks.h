@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "device/source.h"
 #include "run/simulation_options.h"
 #include "session/session.h"
 
@@ -23,5 +24,8 @@ void check_resume(const std::string& path);
 /// than the maximum duration of the run, or if a run is resumed from a snapshot at which the run is
 /// already done.
 void check_times(const SimulationOptions& options, const session::Session& session);
+
+/// Returns the line of the log for kernels that are not the shipped ones; at least one has changed.
+std::string changed_kernels_note(const device::KernelSources& kernels);
 
 }  // namespace navvy::run

@@ -110,6 +110,28 @@ TEST(KernelProgram, ReadsKernelsFromTheFolderInTheEnvironment) {
   EXPECT_EQ(x.read(), std::vector<int>{42});
 }
 
+TEST(KernelSources, NameTheFilesThatAFolderChanges) {
+  ::unsetenv("NAVVY_KERNEL_DIR");
+  const KernelSources shipped = kernel_sources();
+  EXPECT_EQ(shipped.hash.size(), 16u);
+  EXPECT_EQ(shipped.folder, "");
+  EXPECT_TRUE(shipped.changed.empty());
+  const test::Folder own;
+  std::filesystem::copy(navvy::source_dir() + "/kernels", own.path(),
+                        std::filesystem::copy_options::recursive);
+  ::setenv("NAVVY_KERNEL_DIR", own.path().c_str(), 1);
+  const KernelSources copied = kernel_sources();
+  std::ofstream(own / "soil/law.h", std::ios::app) << "\n";
+  std::filesystem::remove(own / "common/portable.h");
+  const KernelSources edited = kernel_sources();
+  ::unsetenv("NAVVY_KERNEL_DIR");
+  EXPECT_EQ(copied.hash, shipped.hash);
+  EXPECT_EQ(copied.folder, own.path().string());
+  EXPECT_TRUE(copied.changed.empty());
+  EXPECT_NE(edited.hash, shipped.hash);
+  EXPECT_EQ(edited.changed, (std::vector<std::string>{"common/portable.h", "soil/law.h"}));
+}
+
 TEST(KernelProgram, DoesNotContract) {
   Device device;
   const std::string text =

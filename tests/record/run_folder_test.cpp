@@ -83,14 +83,37 @@ TEST(RunFolder, OfALaterFormatIsRefusedAndNoFolderIsReported) {
 
 TEST(RunFolder, TextIsReadBackUnchanged) {
   const test::Folder folder;
-  const RunInfo info{
-      kRunFormat, navvy_version(), {"navvy", "run", "a \"b\" c"}, "a.sdf", "some device"};
+  const RunInfo info{kRunFormat,
+                     navvy_version(),
+                     {"navvy", "run", "a \"b\" c"},
+                     "a.sdf",
+                     "some device",
+                     {"0123456789abcdef", "kernels", {"soil/law.h"}},
+                     "groups",
+                     {{"NAVVY_FEW_PARTICLES", "0"}}};
   write_file_atomically(folder / "run.json", run_json(info));
   const RunInfo read = read_run_info(folder.path().string());
   EXPECT_EQ(read.version, info.version);
   EXPECT_EQ(read.command, info.command);
   EXPECT_EQ(read.scene, info.scene);
   EXPECT_EQ(read.device, info.device);
+  EXPECT_EQ(read.kernels.hash, info.kernels.hash);
+  EXPECT_EQ(read.kernels.folder, info.kernels.folder);
+  EXPECT_EQ(read.kernels.changed, info.kernels.changed);
+  EXPECT_EQ(read.schedule, info.schedule);
+  EXPECT_EQ(read.environment, info.environment);
+}
+
+TEST(RunFolder, EnvironmentOfARunHoldsWhatDecidesIt) {
+  ::setenv("NAVVY_FEW_PARTICLES", "0", 1);
+  ::setenv("POCL_CACHE_DIR", "/somewhere", 1);
+  const std::map<std::string, std::string> found = deciding_environment();
+  ::unsetenv("NAVVY_FEW_PARTICLES");
+  ::unsetenv("POCL_CACHE_DIR");
+  EXPECT_EQ(found.at("NAVVY_FEW_PARTICLES"), "0");
+  EXPECT_EQ(found.count("POCL_CACHE_DIR"), 0u);
+  EXPECT_EQ(found.count("PATH"), 0u);
+  EXPECT_EQ(deciding_environment().count("NAVVY_FEW_PARTICLES"), 0u);
 }
 
 }  // namespace
