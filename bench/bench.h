@@ -9,12 +9,16 @@
 
 namespace navvy::bench {
 
-/// Prints the row to stdout, with the header before the first one. `bandwidth` comes from
-/// `copy_bandwidth`, 0 if not measured.
-void print(const device::DeviceInfo& device, const Row& row, double bandwidth = 0);
+/// Prints the row to stdout with the device's name and peaks, and the header before the first one.
+/// The peaks are measured once, before the first row.
+void print(const device::DeviceInfo& device, Row row);
 
-/// Prints a row for work of the host only.
-void print_host(const Row& row);
+/// Returns the peaks of the host's processor, measured once, as its OpenCL driver reaches them;
+/// none without a driver.
+Peak host_peak();
+
+/// Prints a row for work of the host only, with the peaks of its processor.
+void print_host(Row row);
 
 /// Appends the row to the file named by NAVVY_BENCH_CSV, if any. The creator of the file wrote the
 /// header.

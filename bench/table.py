@@ -105,6 +105,57 @@ def native(rows):
         )
 
 
+def peers(rows):
+    """Other codes, which follow our row of the same number of particles."""
+    yield (
+        "code",
+        "particles",
+        "threads",
+        "time step [ms]",
+        "M particle-steps/s",
+        "a processor second",
+        "Navvy / it",
+        "by processor time",
+    )
+    ours = {}
+    for row in rows:
+        work = float(row["particles"]) * float(row["steps"]) / 1e6
+        rate = [work / float(row[column]) for column in ("wall_s", "processor_s")]
+        first = ours.setdefault(row["particles"], rate)
+        yield (
+            " ".join((row["code"], row["version"])),
+            row["particles"],
+            row["threads"],
+            "%.3g" % float(row["step_ms"]),
+            "%.2f" % rate[0],
+            "%.2f" % rate[1],
+            "%.1f" % (first[0] / rate[0]),
+            "%.1f" % (first[1] / rate[1]),
+        )
+
+
+def model(rows):
+    """Rows of which a model of the cost of a step is made."""
+    yield (
+        "bench",
+        "particles",
+        "active blocks",
+        "nodes near tools",
+        "processor ms a step",
+        "ns a particle-step",
+    )
+    for row in rows:
+        step = float(row["processor_ms"]) / float(row["steps"])
+        yield (
+            "`%s`" % row["bench"],
+            row["particles"],
+            row["active_blocks"],
+            row["contact_nodes"] or "0",
+            "%.2f" % step,
+            "%.0f" % (1e6 * step / float(row["particles"])),
+        )
+
+
 def scene(rows):
     yield "scene", "mean active particles", "least ms", "median ms", "real-time factor"
     for row in rows:
@@ -148,6 +199,8 @@ def commands(rows):
 KINDS = {
     "soil": soil,
     "native": native,
+    "peers": peers,
+    "model": model,
     "scene": scene,
     "host": host,
     "limits": limits,
@@ -261,7 +314,17 @@ def selftest():
                 "native_loop:1k,D,1,2000,10,1,0,2e7,2\nours:1k,D,1,1000,10,1,0,3e7,1\n"
             ),
         )
-        put("measured.csv", "file,date,state,note\nn.csv,2026-01-01,abc,Quiet.\n")
+        put(
+            "p.csv",
+            "code,version,threads,particles,steps,step_ms,wall_s,processor_s\n"
+            "Navvy,1,2,1000,10,1.7,0.01,0.02\nOther,3,1,1000,10,0.02,0.1,0.1\n",
+        )
+        put(
+            "measured.csv",
+            "file,date,state,note\nn.csv,2026-01-01,abc,Quiet.\np.csv,2026-01-01,abc,\n",
+        )
+        other = table("peers", os.path.join(folder, "p.csv"))
+        assert other[-1] == "| Other 3 | 1000 | 1 | 0.02 | 0.10 | 0.10 | 10.0 | 5.0 |", other
         page = put("p.md", "# T\n<!-- generated: begin; native: n.csv -->\nold\n%s\nend\n" % END)
         text = rewritten(page)
         # Two copies of the loop: 10 M a thread; the OpenCL step: 15 M a thread; by processor time

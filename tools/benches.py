@@ -11,6 +11,9 @@ import packages
 import workspace
 from workspace import BUILD, NAVVY, ROOT, DevError, say
 
+# Benches that are no program of their own.
+SCRIPTED = ("navvy_bench", "native_bench", "limits_bench")
+
 
 def machine_name():
     """Returns what the machine is called in bench/results: NAVVY_MACHINE, or its processor and how
@@ -67,11 +70,11 @@ def bench_command(arguments):
     packages.install(packages.BASE, packages.BENCH)
     build.build("navvy_benches", "navvy")
     programs = [program for program in bench_programs() if name in program.name]
-    scripted = [bench for bench in ("navvy_bench", "limits_bench") if name in bench]
+    scripted = [bench for bench in SCRIPTED if name in bench]
     if not programs and not scripted:
         raise DevError(
-            "no bench matches '%s'; there is: navvy_bench limits_bench %s"
-            % (name, " ".join(program.name for program in bench_programs()))
+            "no bench matches '%s'; there is: %s"
+            % (name, " ".join([*SCRIPTED, *(program.name for program in bench_programs())]))
         )
     results = pathlib.Path("bench") / "results" / machine_name()
     (ROOT / results).mkdir(parents=True, exist_ok=True)
@@ -80,6 +83,8 @@ def bench_command(arguments):
         workspace.run(
             NAVVY, "bench", *options, "--csv", results / "soil.csv", "--json", results / "soil.json"
         )
+    if "native_bench" in scripted:
+        workspace.run(NAVVY, "bench", "--native", "--csv", results / "native.csv")
     if "limits_bench" in scripted:
         workspace.run(sys.executable, "-B", "bench/limits.py", NAVVY, results / "limits.csv")
     header = workspace.output(NAVVY, "bench", "--columns").strip()

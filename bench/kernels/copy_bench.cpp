@@ -20,7 +20,7 @@ int main() {
       row.steps = 1;
       row.timing.best = 2.0 * static_cast<double>(bytes) / bandwidth;
       row.bytes_per_particle = 32;
-      bench::print(device.info(), row, bandwidth);
+      bench::print(device.info(), row);
     }
     const device::KernelProgram program = device::KernelProgram::from_text(
         device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");

@@ -79,6 +79,7 @@ void measure(render::Renderer& renderer, scene::Frame& frame, const Row& row,
   result.timing.best = times.front() / 1e3;
   result.timing.median = times[times.size() / 2] / 1e3;
   result.timing.spread = (times.back() - times.front()) / times.front();
+  result.peak = bench::host_peak();
   bench::append_csv(result);
   if (!folder.empty()) render::write_png(folder + "/" + prefix + "_" + row.name + ".png", image);
 }

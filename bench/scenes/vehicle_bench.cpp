@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps of machines only, without particles: the EW180 on firm ground, on loam with its ruts,
-// beside 200 bodies, and four of them; the crawler; a light truck on 50 x 50 m of fine loam.
-// `vehicle_bench [NAME]` runs the rows whose name contains NAME. A row is one second of simulated
-// time; `particles` counts machines and bodies. The memory of ground and ruts goes to stderr, per
-// column of the touched tiles and per column that a wheel or track moved.
+// beside 200 bodies, and two, four and eight of them; the crawler; a light truck on 50 x 50 m of
+// fine loam. `vehicle_bench [NAME]` runs the rows whose name contains NAME. A row is one second of
+// simulated time; `particles` counts machines and bodies. The memory of ground and ruts goes to
+// stderr, per column of the touched tiles and per column that a wheel or track moved.
 #include <malloc.h>
 
 #include <cstdio>
@@ -63,7 +63,9 @@ const std::vector<Case> kCases = {
     {"firm", "ew180"},
     {"loam", "ew180", 1, 0, true},
     {"200_bodies", "ew180", 1, 200},
+    {"two", "ew180", 2},
     {"four", "ew180", 4},
+    {"eight", "ew180", 8},
     {"tracks_firm", "ex180_tracked"},
     {"tracks_loam", "ex180_tracked", 1, 0, true},
     {"light_loam_50x50", "light_truck", 1, 0, true, 0.05, Vec2(50, 50), 4}};

@@ -58,7 +58,9 @@ const std::vector<std::string>& columns() {
                                                  "fma_flops_per_s",
                                                  "processor_ms",
                                                  "kernel_ms",
-                                                 "kernel_particle_steps_per_s"};
+                                                 "kernel_particle_steps_per_s",
+                                                 "active_blocks",
+                                                 "contact_nodes"};
   return names;
 }
 
@@ -88,7 +90,9 @@ std::vector<std::string> cells(const Row& row) {
           number(row.peak.flops, "%.4g"),
           number(row.timing.processor * 1e3, "%.1f"),
           number(row.kernels * 1e3, "%.4f"),
-          number(row.kernels > 0 ? work / row.kernels : 0, "%.4g")};
+          number(row.kernels > 0 ? work / row.kernels : 0, "%.4g"),
+          number(row.active_blocks, "%.0f"),
+          number(row.contact_nodes, "%.0f")};
 }
 
 std::string csv_header() {

@@ -54,6 +54,9 @@ struct Row {
   std::string hash;
   /// Side length of the square site [m], if the site's size matters.
   double site = 0;
+  /// Numbers of active blocks and of the nodes that a tool's shell may touch, means over the steps;
+  /// not for rows without particles.
+  double active_blocks = 0, contact_nodes = 0;
   /// Names of the device and of its driver, from DeviceInfo.
   std::string device, driver;
   /// Peak rates of the device; the row states its own rates as shares of these.

@@ -216,6 +216,8 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
   stats.particles = particles.count();
   stats.particles_peak = std::max(stats.particles_peak, stats.particles);
   stats.blocks = static_cast<int>(particles.store().particle_blocks().size());
+  stats.active_blocks = static_cast<int>(particles.store().table().active.size());
+  stats.near_nodes = contact.nodes().count * BLOCK_NODES;
 }
 
 void Solver::State::step_particles(double dt, double tool_speed, bool hold,

@@ -56,6 +56,9 @@ struct SolverStats {
   int particles = 0, particles_peak = 0;
   /// Number of blocks that contain particles.
   int blocks = 0;
+  /// Numbers of active blocks, whose nodes are computed, and of the nodes in those active blocks
+  /// that a shell may touch.
+  int active_blocks = 0, near_nodes = 0;
   /// Numbers of re-bins, of columns turned into particles, and of particle blocks deposited into
   /// columns, since the start.
   std::uint64_t rebins = 0, activations = 0, deposits = 0;

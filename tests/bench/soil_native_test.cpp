@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the native loop of bench/native with the double-precision twin, so that benches measure
-// checked code.
-#include "native/native_soil.h"
+// Compares the native loop of src/bench/native with the double-precision twin, so that benches
+// measure checked code.
+#include "bench/native/native_soil.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "native/native_soil.h"
+#include "bench/native/native_soil.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
-#include "native/native_lanes.h"
+#include "bench/native/native_lanes.h"
 #include "soil/particles/floor.h"
 #include "soil/particles/soil_table.h"
 

@@ -17,8 +17,8 @@ namespace navvy::bench {
 
 struct Weights;
 
-/// Steps soil of one kind. Built for speed with the flags of this machine; never part of the
-/// installed library.
+/// Steps soil of one kind. Built for speed with the instructions of the machine that compiles it;
+/// on an older processor it may end the program.
 class NativeSoil {
  public:
   /// Starts without particles. `ground`: height of the resting ground [cells of the grid frame].

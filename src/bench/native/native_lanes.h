@@ -54,8 +54,8 @@ inline Lanes step(float edge, const Lanes& x) {
   return x < Lanes{} + edge ? Lanes{} : Lanes{} + 1.0f;
 }
 inline ints isfinite(const Lanes& a) {
-  return a - a == Lanes{};
-}  // NOLINT: not 0 for what is not finite
+  return a - a == Lanes{};  // NOLINT(misc-redundant-expression): not so for infinity and NaN
+}
 inline float clamp(float x, float low, float high) { return x < low ? low : x > high ? high : x; }
 inline float mean_of(columns t) { return t; }
 inline bool all(bool of_columns) { return of_columns; }
