@@ -11,8 +11,9 @@ import packages
 import workspace
 from workspace import BUILD, NAVVY, ROOT, DevError, say
 
-# Benches that are no program of their own.
-SCRIPTED = ("navvy_bench", "native_bench", "limits_bench")
+# Benches that are no program of their own. The last one installs packages of others and runs on
+# request only.
+SCRIPTED = ("navvy_bench", "native_bench", "limits_bench", "peers_bench")
 
 
 def machine_name():
@@ -32,9 +33,12 @@ def machine_name():
 
 
 def bench_programs():
-    """Returns the bench programs that are built."""
+    """Returns the bench programs that are built, without those whose source is gone."""
     return sorted(
-        path for path in (ROOT / BUILD / "bench").glob("*/*_bench") if os.access(path, os.X_OK)
+        path
+        for path in (ROOT / BUILD / "bench").glob("*/*_bench")
+        if os.access(path, os.X_OK)
+        and (ROOT / "bench" / path.parent.name / (path.name + ".cpp")).is_file()
     )
 
 
@@ -70,7 +74,7 @@ def bench_command(arguments):
     packages.install(packages.BASE, packages.BENCH)
     build.build("navvy_benches", "navvy")
     programs = [program for program in bench_programs() if name in program.name]
-    scripted = [bench for bench in SCRIPTED if name in bench]
+    scripted = [bench for bench in SCRIPTED if name in bench and (name or bench != "peers_bench")]
     if not programs and not scripted:
         raise DevError(
             "no bench matches '%s'; there is: %s"
@@ -85,6 +89,11 @@ def bench_command(arguments):
         )
     if "native_bench" in scripted:
         workspace.run(NAVVY, "bench", "--native", "--csv", results / "native.csv")
+    if "peers_bench" in scripted:
+        packages.install(packages.READERS, packages.PEERS)
+        workspace.run(
+            sys.executable, "-B", "bench/peers/compare.py", NAVVY, results / "peers.csv"
+        )
     if "limits_bench" in scripted:
         workspace.run(sys.executable, "-B", "bench/limits.py", NAVVY, results / "limits.csv")
     header = workspace.output(NAVVY, "bench", "--columns").strip()

@@ -48,6 +48,7 @@ DOCS = [
     "doxygen",
 ]
 OCLGRIND = ["oclgrind"]
+PEERS = ["lammps", "yade"]
 # libclc of the release of LLVM that clang is of.
 GPU_CHECK = ["clang", "libclc-14", "libclc-14-dev"]
 READERS = ["python3-venv"]

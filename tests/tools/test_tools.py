@@ -9,8 +9,10 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
+sys.path.insert(0, str(ROOT / "bench" / "peers"))
 import benches  # noqa: E402
 import build  # noqa: E402
+import compare as peers  # noqa: E402
 import dev  # noqa: E402
 import fuzz  # noqa: E402
 import gpu_check  # noqa: E402
@@ -121,6 +123,34 @@ class Lint(unittest.TestCase):
 class Benches(unittest.TestCase):
     def test_machine_name_is_a_folder_name(self):
         self.assertRegex(benches.machine_name(), r"^[a-z0-9]+(-[a-z0-9]+)*$")
+
+
+class Peers(unittest.TestCase):
+    def test_least_times_of_several_rounds_count(self):
+        first = {"particles": 1000, "steps": 20, "wall_s": 0.5, "processor_s": 0.8}
+        second = {"particles": 1000, "steps": 20, "wall_s": 0.7, "processor_s": 0.4}
+        row = peers.better(peers.better(None, first), second)
+        self.assertEqual((row["wall_s"], row["processor_s"]), (0.5, 0.4))
+        for rate, expected in zip(peers.rates(row), (0.04, 0.05)):
+            self.assertAlmostEqual(rate, expected)
+
+    def test_rates_of_navvy_stand_over_those_of_a_peer_of_its_size(self):
+        row = {"threads": 2, "step_ms": 1.7, "steps": 10}
+        rows = [
+            {**row, "code": "Navvy", "particles": 1000, "wall_s": 0.1, "processor_s": 0.2},
+            {**row, "code": "Other", "particles": 1000, "wall_s": 0.5, "processor_s": 0.6},
+        ]
+        self.assertRegex(printed(peers.print_table, rows), r"Other .* 5\.0 +3\.0\n")
+
+    def test_result_of_a_script_is_its_line_of_json(self):
+        self.assertEqual(peers.reported('noise\nPEER {"wall_s": 2.0}\n'), {"wall_s": 2.0})
+
+    def test_a_missing_environment_leaves_codes_out(self):
+        with tempfile.TemporaryDirectory() as folder:
+            blocked = pathlib.Path(folder) / "file"
+            blocked.write_text("")
+            said = printed(peers.made_environment, blocked / "environment")
+        self.assertIn("left out Taichi and Warp, which need the PyPI packages taichi", said)
 
 
 class GpuCheck(unittest.TestCase):
