@@ -50,6 +50,7 @@ NAVIGATION = [
                 "site",
                 "controller",
                 "kernel_benchmark",
+                "many_worlds",
                 "maps",
                 "library",
                 "*",
