@@ -24,6 +24,8 @@ struct SceneOptions {
   /// OpenCL device as described at device::Device. Empty: the environment variable NAVVY_DEVICE
   /// selects it.
   std::string device;
+  /// Name of a set of changed values, which come before those of `set`; empty for none.
+  std::string preset;
   /// Changed values of the scene, each as KEY=VALUE.
   std::vector<std::string> set;
   /// Values of the options --terrain, --at and --size as text. They are parsed by `overrides`, so
@@ -40,8 +42,9 @@ struct SceneOptions {
   /// True to draw no pictures.
   bool no_render = false;
 
-  /// Adds the options that change values of the scene to `command`: --set, --seed, --terrain, --at,
-  /// --size and --soil. This struct must stay alive until the command has run.
+  /// Adds the options that change values of the scene to `command`: --preset, --set, --seed,
+  /// --terrain,
+  /// --at, --size and --soil. This struct must stay alive until the command has run.
   void add_values_to(CLI::App& command);
   /// Adds the scene argument and --device to `command`. This struct must stay alive until the
   /// command has run.

@@ -101,6 +101,7 @@ std::string values_of(const SceneOptions& scene) {
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) out += std::string(" ") + option + " '" + value + "'";
   };
+  add("--preset", scene.preset);
   for (const std::string& one : scene.set) add("--set", one);
   add("--terrain", scene.terrain);
   add("--at", scene.at);

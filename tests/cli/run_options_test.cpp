@@ -32,6 +32,21 @@ class RunOptions : public test::ProgramRun {
   std::string snapshot() const { return (directory_ / "state.snapshot").string(); }
 };
 
+TEST_F(RunOptions, PlanningPresetHasCoarseCellsThatSetOverrides) {
+  const auto cell = [&] {
+    const std::string scene = test::text_of(out() + "/scene.sdf");
+    const std::string open = "<cell_m>";
+    const std::size_t at = scene.find(open);
+    return at == std::string::npos ? 0.0 : std::stod(scene.substr(at + open.size()));
+  };
+  ASSERT_EQ(short_run({"--preset", "planning"}), 0) << complained();
+  EXPECT_EQ(cell(), 0.2);
+  ASSERT_EQ(short_run({"--set", "solver.cell_m=0.125", "--preset", "planning"}), 0) << complained();
+  EXPECT_EQ(cell(), 0.125);
+  EXPECT_NE(short_run({"--preset", "quick"}), 0);
+  expect_reported("planning");
+}
+
 TEST_F(RunOptions, RefusesASnapshotTimeBeyondTheDurationAndAcceptsThatOfTheEnd) {
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "5"}), 2);
   expect_reported("the run lasts at most 0.05 s");
