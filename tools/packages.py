@@ -48,7 +48,9 @@ DOCS = [
     "doxygen",
 ]
 OCLGRIND = ["oclgrind"]
-PEERS = ["lammps", "yade"]
+# Not YADE, which brings a BLAS that starts threads before the program can block signals: `navvy
+# run` then dies of Ctrl-C instead of finishing its files.
+PEERS = ["lammps"]
 # libclc of the release of LLVM that clang is of.
 GPU_CHECK = ["clang", "libclc-14", "libclc-14-dev"]
 READERS = ["python3-venv"]
