@@ -132,6 +132,38 @@ void add_masses(const session::Session& session, const heightfield::Terrain& sur
                                   ledger.left_site[i] - ledger.inserted[i]);
 }
 
+/// Returns the loads of trucks by the accounts of all steps.
+std::optional<LoadScore> load_score(const std::vector<session::ProgramReport>& programs) {
+  std::optional<LoadScore> out;
+  for (const session::ProgramReport& program : programs)
+    for (const control::StepReport& step : program.list)
+      for (const control::Measurement& one : step.measurements) {
+        if (one.name == "loads") {
+          if (!out) out.emplace();
+          out->count += static_cast<int>(one.value);
+        } else if (out && one.name == "load_error") {
+          out->error = std::max(out->error, one.value);
+        } else if (out && one.name == "most_passes") {
+          out->passes = std::max(out->passes, static_cast<int>(one.value));
+        } else if (out && one.name == "spilt_kg") {
+          out->spilt += one.value;
+        }
+      }
+  return out;
+}
+
+/// Returns the judgement of a goal about loads, of which `bound` is the largest value.
+GoalResult judge_loads(const char* name, const Score& score, double value, double bound) {
+  GoalResult out{name, std::nullopt, bound, false, false, ""};
+  if (score.loads && score.loads->count > 0) {
+    out.value = value;
+    out.met = value <= bound;
+  } else {
+    out.reason = "cannot be measured, as no truck was loaded";
+  }
+  return out;
+}
+
 /// Returns the judgement of the angle of the sides, of which `bound` [rad] is the largest error. An
 /// angle that cannot be measured misses the goal: nothing shows that the sides are as commanded.
 GoalResult judge_batter(const ShapeScore& shape, double bound) {
@@ -177,6 +209,7 @@ Score measure_score(const session::Session& session, const sim::ActivePlaces& ac
               out.outside);
   if (design != nullptr) out.shape = measure_shape(surface, *design);
   add_masses(session, surface, active, out);
+  out.loads = load_score(session.programs());
   out.bank_volume = earth.bank_volume;
   for (const session::Cycle& one : session.cycles()) out.moved += one.payload_dump;
   out.work_time = work_time(session);
@@ -221,6 +254,13 @@ std::vector<GoalResult> judge(const Score& score, const scene::Goals& goals) {
   add("outside_cut_m3", goals.outside_cut, score.outside.cut, false);
   add("collisions", goals.collisions, static_cast<double>(score.collisions), false);
   add("work_time_s", goals.work_time, score.work_time, false);
+  const LoadScore loads = score.loads.value_or(LoadScore{});
+  if (goals.load_error.given)
+    out.push_back(judge_loads("load_error", score, loads.error, goals.load_error.value));
+  if (goals.load_passes.given)
+    out.push_back(judge_loads("load_passes", score, loads.passes, goals.load_passes.value));
+  if (goals.spilt.given)
+    out.push_back(judge_loads("spilt_kg", score, loads.spilt, goals.spilt.value));
   return out;
 }
 

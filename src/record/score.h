@@ -89,12 +89,26 @@ struct ShapeScore {
 /// Height above a design within which a column counts as done [m].
 inline constexpr double kCovered = 0.1;
 
+/// Trucks that jobs have loaded.
+struct LoadScore {
+  /// Number of loads.
+  int count = 0;
+  /// Largest difference of a load from the wanted one, relative to it [-].
+  double error = 0;
+  /// Most passes of a load.
+  int passes = 0;
+  /// Mass that left the bucket over the beds and fell beside them [kg].
+  double spilt = 0;
+};
+
 /// Score of a run up to now.
 struct Score {
   /// Ground against its design; nothing without one.
   std::optional<ShapeScore> shape;
   /// Columns with a design height, and all others.
   AreaScore inside, outside;
+  /// Trucks that were loaded; nothing without a job that loads any.
+  std::optional<LoadScore> loads;
   /// Bank volume of the soil that columns lost [m3] (Earthwork::bank_volume).
   double bank_volume = 0;
   /// Mass of the soil in buckets when dumps started, summed over all cycles [kg].

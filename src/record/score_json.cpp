@@ -84,6 +84,11 @@ json score_json(const Score& score, const scene::Scene& scene) {
     out["moved_t_per_h"] = score.moved / 1000 / score.work_time * kHour;
   }
   if (score.bank_volume > 0) out["energy_kj_per_m3"] = score.energy / 1000 / score.bank_volume;
+  if (score.loads)
+    out["loads"] = {{"count", score.loads->count},
+                    {"load_error", score.loads->error},
+                    {"most_passes", score.loads->passes},
+                    {"spilt_kg", score.loads->spilt}};
   if (score.shape) {
     out["shape"] = shape_json(*score.shape);
     // As the baselines of the planner Terra define them.

@@ -26,12 +26,15 @@ struct Goals {
   Goal outside_cut;    ///< largest volume dug outside of the design [m3]
   Goal collisions;     ///< largest number of collisions [-]
   Goal work_time;      ///< longest time until the programs have ended [s]
+  Goal load_error;     ///< largest error of a truck's load, relative to the wanted one [-]
+  Goal load_passes;    ///< most passes of a load [-]
+  Goal spilt;          ///< largest mass that fell beside the beds [kg]
 
   /// Returns true if the scene sets any goal.
   bool any() const {
-    for (const Goal* one :
-         {&completion, &coverage, &volume_error, &rms_error, &over_dig_rms, &over_dig_max,
-          &under_dig_rms, &batter_error, &outside_cut, &collisions, &work_time})
+    for (const Goal* one : {&completion, &coverage, &volume_error, &rms_error, &over_dig_rms,
+                            &over_dig_max, &under_dig_rms, &batter_error, &outside_cut, &collisions,
+                            &work_time, &load_error, &load_passes, &spilt})
       if (one->given) return true;
     return false;
   }
@@ -59,6 +62,10 @@ struct Goals {
     goal("outside_cut_m3", outside_cut, {0, 1e9}, "Largest volume dug outside of the design.");
     goal("collisions", collisions, {0, 1e9}, "Largest number of collisions.");
     goal("work_time_s", work_time, {0, 1e9}, "Longest time until the programs have ended.");
+    goal("load_error", load_error, {0, 1e3},
+         "Largest difference of a truck's load from load_kg, relative to it.");
+    goal("load_passes", load_passes, {0, 1e6}, "Most passes of a load.");
+    goal("spilt_kg", spilt, {0, 1e9}, "Largest mass that fell beside the beds.");
   }
 };
 
