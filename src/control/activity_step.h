@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "control/job_planner.h"
 #include "control/path_planner.h"
@@ -79,8 +80,8 @@ class ActivityStep : public scene::Step {
   /// Returns the pit that the step digs, with the place of its spoil; nothing if the step digs
   /// none. A step begun in the middle digs the rest.
   virtual std::optional<PitJob> pit_job() const { return std::nullopt; }
-  /// Returns the name of the machine in whose bed the soil must land; empty if the step names none.
-  virtual std::string receiver() const { return ""; }
+  /// Returns the names of the machines in whose beds the soil must land.
+  virtual std::vector<std::string> receivers() const { return {}; }
 };
 
 /// Returns the ActivityStep stored in a step of a program. @throws InputError if the stored step

@@ -26,7 +26,8 @@ struct JobHeap {
   double width = 4;
 };
 
-/// A pit to dig, and the place of its spoil; or a hole to fill from a heap.
+/// A pit to dig, and the place of its spoil; or a hole to fill from a heap; or a heap from which
+/// trucks are loaded.
 struct PitJob {
   /// Shape of the pit, whose depth is above 0; or that of the ground after filling.
   scene::DesignArea area;
@@ -39,8 +40,10 @@ struct PitJob {
   /// Deviation (rms) from the design above which a strip of the floor is levelled [m]; 0: the floor
   /// is not levelled.
   double tolerance = 0;
-  /// Heap from which the area is filled; nothing: the area is dug.
+  /// Heap from which the area is filled, or trucks are loaded; nothing: the area is dug.
   std::optional<JobHeap> heap;
+  /// True if the soil goes into beds that stand at `dump_from`. With a heap the area is unused.
+  bool into_beds = false;
 };
 
 /// One cut of a job: a strip one bucket wide, radial to the swing axis, in one layer.

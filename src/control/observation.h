@@ -23,6 +23,18 @@ struct ProgramProgress {
   bool failed = false;
 };
 
+/// The bed of another machine as it is seen from the cab.
+struct BedView {
+  /// Middle of the bed in W (x, y), and the vector from there to the middle of its end [m].
+  Vec2 middle = Vec2::Zero(), to_end = Vec2::Zero();
+  /// Height of its highest rim in W [m].
+  double rim = 0;
+  /// Speed of the machine [m/s].
+  double speed = 0;
+  /// Mass of the soil in the machine's beds [kg].
+  double load = 0;
+};
+
 /// Everything that an operator knows in one control step: what it can see and feel in the cab.
 struct Observation {
   /// States of the joints, in the order of scene::Machine::joints.
@@ -51,6 +63,9 @@ struct Observation {
   /// Function that returns the mass of the soil in the beds of the machine of this name [kg]; empty
   /// if it is unknown. A call costs a pass over the particles.
   std::function<double(const std::string&)> load_of;
+  /// Function that returns the first bed of the machine of this name, or nothing if there is none;
+  /// empty if it is unknown. A call costs a pass over the particles.
+  std::function<std::optional<BedView>(const std::string&)> bed_of;
   /// Function that returns true if the hitch of this name is closed; empty if that is unknown.
   std::function<bool(const std::string&)> is_hitched;
   /// Function that returns true if another machine is coupled to this one; empty if that is

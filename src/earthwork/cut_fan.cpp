@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,13 +21,14 @@ constexpr double kAside = 0.04;
 // Soil above the floor at the ends of a cut [m]; in a shallow job this share of its depth.
 constexpr double kLeastSoil = 0.1, kLeastShare = 0.3;
 constexpr double kLeastLength = 0.8;  // of a cut [m]
-// Least volume of a cut / heaped capacity: in the last layer, and in those above it, where the rest
-// waits for the next one.
-constexpr double kWorth = 0.3, kWorthAbove = 0.6;
-constexpr double kBeyondEdge = 0.6;  // where a pass that levels ends beyond the near edge [m]
+constexpr double kWorth = 0.3;        // least volume of a cut in the last layer / heaped capacity
+constexpr double kBeyondEdge = 0.6;   // where a pass that levels ends beyond the near edge [m]
 // A fill has mounds where a load fell: its level is looked at over so many samples at a time.
 constexpr std::size_t kMound = 10;
-constexpr int kAcross = 5;  // places across a strip at which its level is looked at
+constexpr int kAcross = 5;  // places across a strip at which its soil is looked at
+constexpr int kFine = 3;    // directions per strip
+// The sides of the bucket may be so far outside of the pit [m]: a trench is dug one bucket wide.
+constexpr double kOutside = 0.1;
 // Keys: layers are so far apart, and directions count from the middle of that.
 constexpr std::int64_t kLayerKeys = 1000;
 
@@ -34,15 +36,16 @@ constexpr std::int64_t kLayerKeys = 1000;
 class Fan {
  public:
   Fan(const control::PitJob& job, const PitShape& pit, const ArmReach& reach, const Pose& X_WB,
-      const control::SurfaceView& surface, double sector)
+      const control::SurfaceView& surface, const FanLimits& limits)
       : pit_(pit),
         reach_(reach),
         surface_(surface),
         width_(reach.arm().bucket().width),
         capacity_(reach.arm().bucket().capacity),
-        slope_(face_slope(job)),
+        slope_(limits.face ? face_slope(job) : std::numeric_limits<double>::infinity()),
         tolerance_(job.tolerance),
-        sector_(sector),
+        sector_(limits.sector),
+        worth_above_(limits.worth_above),
         least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)),
         fills_(job.heap.has_value()) {
     const Pose X_WS = X_WB * reach.arm().X_BS();
@@ -56,16 +59,37 @@ class Fan {
 
   std::vector<control::JobCut> cuts() const {
     std::vector<control::JobCut> out;
-    const int most = static_cast<int>(sector_ / turn_);
-    for (int layer = 1; layer <= layers_; ++layer)
+    for (int layer = 1; layer <= layers_; ++layer) {
+      std::vector<Strip> strips;
+      const int most = static_cast<int>(sector_ / turn_ * kFine);
       for (int i = -most; i <= most; ++i)
-        if (std::optional<control::JobCut> one = cut(layer, i)) out.push_back(*std::move(one));
+        if (std::optional<Strip> one = strip(layer, i)) strips.push_back(*std::move(one));
+      std::stable_sort(strips.begin(), strips.end(),
+                       [](const Strip& a, const Strip& b) { return a.volume > b.volume; });
+      for (Strip& one : strips) out.push_back(std::move(one.cut));
+    }
+    const int most = static_cast<int>(sector_ / turn_);
     for (int i = -most; i <= most && tolerance_ > 0; ++i)
       if (std::optional<control::JobCut> one = level(i)) out.push_back(*std::move(one));
     return out;
   }
+  std::size_t count() const {
+    std::size_t out = 0;
+    const int most = static_cast<int>(sector_ / turn_);
+    for (int i = -most; i <= most; ++i) {
+      for (int layer = 1; layer <= layers_; ++layer) out += strip(layer, kFine * i) ? 1 : 0;
+      out += tolerance_ > 0 && level(i) ? 1 : 0;
+    }
+    return out;
+  }
 
  private:
+  /// A cut, and the volume of soil above its floor [m3].
+  struct Strip {
+    control::JobCut cut;
+    double volume = 0;
+  };
+
   /// Returns the distance of the farthest column of the pit that the arm reaches [m].
   double farthest() const {
     double out = 0;
@@ -87,34 +111,53 @@ class Fan {
       if (std::isnan(z)) return std::nullopt;
       out = std::max(out, z);
     }
+    // The bucket's sides stay inside.
+    const double side = 0.5 * width_ - kOutside;
+    for (const double t : {-side, side})
+      if (side > aside && std::isnan(pit_.floor(centre_ + r * along + t * across)))
+        return std::nullopt;
     return out;
   }
 
-  /// Returns the strip of a layer in direction `i`; nothing if it is not worth a scoop.
-  std::optional<control::JobCut> cut(int layer, int i) const {
-    const double angle = heading_ + i * turn_;
+  /// Returns the mean height of the soil above `z` across the bucket [m].
+  double above(double r, double angle, double z) const {
+    const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
+    double sum = 0;
+    for (int k = 0; k < kAcross; ++k) {
+      const double t = width_ * ((k + 0.5) / kAcross - 0.5);
+      const Vec2 p = centre_ + r * along + t * across;
+      sum += std::max(0.0, surface_.height(p.x(), p.y()) - z);
+    }
+    return sum / kAcross;
+  }
+
+  /// Returns the strip of a layer in direction `i`, of kFine per strip; nothing if it is not worth
+  /// a scoop.
+  std::optional<Strip> strip(int layer, int i) const {
+    const double angle = heading_ + i * turn_ / kFine;
     const double layer_z = pit_.ground() + (pit_.lowest() - pit_.ground()) * layer / layers_;
     const Vec2 along(std::cos(angle), std::sin(angle));
-    control::JobCut out;
+    Strip found;
+    control::JobCut& out = found.cut;
     std::vector<double> floors;
     int first = -1, last = -1;
-    const double worth = layer == layers_ ? kWorth : kWorthAbove;
-    double volume = 0;  // above the floor [m3]
+    const double worth = layer == layers_ ? kWorth : worth_above_;
     const int samples = static_cast<int>((reach_.arm().longest() + 2 - kFaceBegins) / kSample);
     for (int k = 0; k <= samples; ++k) {
       const double r = kFaceBegins + k * kSample;
       const Vec2 p = centre_ + r * along;
       const double top = surface_.height(p.x(), p.y());
       const std::optional<double> z = floor(r, angle, layer_z);
-      const bool digs = z && top - *z > 0 && r <= reach_.at(*z - ring_).most;
+      const double soil = z && r <= reach_.at(*z - ring_).most ? above(r, angle, *z) : 0;
+      const bool digs = soil > 0;
       // Where nothing is to be dug, the edge stays on the ground.
       floors.push_back(digs ? *z : z ? std::max(*z, top) : top);
-      if (!digs || top - *z < least_soil_) continue;
+      if (!digs || soil < least_soil_) continue;
       if (first < 0) first = k;
       last = k;
-      volume += (top - *z) * width_ * kSample;
+      found.volume += soil * width_ * kSample;
     }
-    if (first < 0 || (last - first) * kSample < kLeastLength || volume < worth * capacity_)
+    if (first < 0 || (last - first) * kSample < kLeastLength || found.volume < worth * capacity_)
       return std::nullopt;
     out.near = centre_ + (kFaceBegins + first * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
@@ -122,7 +165,7 @@ class Fan {
     out.rim = pit_.rim();
     out.key = layer * kLayerKeys + i + kLayerKeys / 2;
     out.worth = worth;
-    return out;
+    return found;
   }
 
   /// Returns the sum of the squares of the heights [m2] by which soil stands above the floor `z` of
@@ -192,7 +235,7 @@ class Fan {
   const PitShape& pit_;
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
-  const double width_, capacity_, slope_, tolerance_, sector_, least_soil_;
+  const double width_, capacity_, slope_, tolerance_, sector_, worth_above_, least_soil_;
   const bool fills_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;
@@ -203,8 +246,14 @@ class Fan {
 
 std::vector<control::JobCut> cut_fan(const control::PitJob& job, const PitShape& pit,
                                      const ArmReach& reach, const Pose& X_WB,
-                                     const control::SurfaceView& surface, double sector) {
-  return Fan(job, pit, reach, X_WB, surface, sector).cuts();
+                                     const control::SurfaceView& surface, const FanLimits& limits) {
+  return Fan(job, pit, reach, X_WB, surface, limits).cuts();
+}
+
+std::size_t count_strips(const control::PitJob& job, const PitShape& pit, const ArmReach& reach,
+                         const Pose& X_WB, const control::SurfaceView& surface,
+                         const FanLimits& limits) {
+  return Fan(job, pit, reach, X_WB, surface, limits).count();
 }
 
 }  // namespace navvy::earthwork

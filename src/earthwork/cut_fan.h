@@ -11,13 +11,30 @@
 
 namespace navvy::earthwork {
 
+/// Where the strips of a fan may lie.
+struct FanLimits {
+  /// Largest angle of a strip from straight ahead, to both sides [rad].
+  double sector = kSector;
+  /// True if a face is left ahead of the machine, on which it can stand.
+  bool face = true;
+  /// Least volume of a cut in layers above the last / heaped capacity: the rest waits for the next
+  /// layer.
+  double worth_above = 0.6;
+};
+
 /// Returns the cuts that are worth a scoop from the pose X_WB of the base link: layer by layer from
-/// the top, in each layer one strip per direction; then, for a job with a tolerance, the strips
-/// that deviate by more from the design. The directions are so close that strips touch at the
-/// farthest soil and overlap nearer to the machine. Places of spoil are not filled in. `sector` is
-/// the largest angle of a strip from straight ahead, to both sides [rad].
+/// the top, in each layer the strip with the most soil first; then, for a job with a tolerance, the
+/// strips that deviate by more from the design. Directions are a third of those closer at which
+/// strips touch at the farthest soil, so that a strip fits what others have left between them.
+/// Places of spoil are not filled in.
 std::vector<control::JobCut> cut_fan(const control::PitJob& job, const PitShape& pit,
                                      const ArmReach& reach, const Pose& X_WB,
-                                     const control::SurfaceView& surface, double sector = kSector);
+                                     const control::SurfaceView& surface,
+                                     const FanLimits& limits = {});
+
+/// Returns the number of strips side by side that `cut_fan` would begin with, over all layers.
+std::size_t count_strips(const control::PitJob& job, const PitShape& pit, const ArmReach& reach,
+                         const Pose& X_WB, const control::SurfaceView& surface,
+                         const FanLimits& limits = {});
 
 }  // namespace navvy::earthwork

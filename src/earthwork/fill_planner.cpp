@@ -10,6 +10,7 @@
 #include "control/reach.h"
 #include "core/error.h"
 #include "earthwork/cut_fan.h"
+#include "earthwork/heap.h"
 #include "earthwork/pit_checks.h"
 #include "earthwork/pit_shape.h"
 #include "earthwork/spoil_place.h"
@@ -28,46 +29,22 @@ using control::place_text;
 constexpr double kAdvance = 3;
 // A hollow is looked at over a square of this half length [m], the spread of a bucket's load.
 constexpr double kSpread = 0.5;
-// A heap is dug in this sector, to both sides of straight ahead [rad].
-constexpr double kHeapSector = radians(120);
 constexpr double kEvery = 0.25;       // between places to dump [m]
 constexpr double kHollow = 0.08;      // least volume of a hollow that is filled [m3]
 constexpr double kLeastScoop = 0.25;  // share of the heaped capacity
 // The first station stands so much farther back, and soil that lies too high so far around the hole
 // is taken off: the digging has left a mound at its near end, where the machine is to drive [m].
 constexpr double kApron = 1, kBorder = 0.8;
-constexpr double kSkin = 0.05;        // of the heap that is left, to spare the ground below [m]
-constexpr double kLeastFault = 0.05;  // volume that is missing [m3]
+constexpr double kLeastFault = 0.05;            // volume that is missing [m3]
 constexpr std::int64_t kLevelKeys = 1'000'000;  // keys of levelling are so far from those of scoops
 
 /// Hole and heap of a job on the present ground.
 class Fill {
  public:
   Fill(const control::PitJob& job, const control::SurfaceView& surface)
-      : hole(job.area, surface), heap(heap_area(*job.heap), surface), columns(hole.columns()) {
-    heap.cover_heap(kSkin);
+      : hole(job.area, surface), heap(heap_shape(*job.heap, surface)), columns(hole.columns()) {
     ahead = scene::longest_edge(job.area.polygon).normalized();
     for (const PitColumn& one : columns) middle += one.p / static_cast<double>(columns.size());
-  }
-
-  /// Returns the volume of the heap [m3].
-  double heap_volume() const {
-    double out = 0;
-    for (const PitColumn& one : heap.columns())
-      out += std::max(0.0, one.top - one.floor) * heap.column_area();
-    return out;
-  }
-
-  /// Returns the corners of the strip of a heap.
-  static scene::DesignArea heap_area(const control::JobHeap& heap) {
-    const Vec2 line = heap.to - heap.from;
-    const Vec2 along =
-        0.5 * heap.width * (line.norm() > 1e-6 ? Vec2(line.normalized()) : Vec2::UnitX());
-    const Vec2 across(-along.y(), along.x());
-    scene::DesignArea out;
-    out.polygon = {heap.from - along - across, heap.to + along - across, heap.to + along + across,
-                   heap.from - along + across};
-    return out;
   }
 
   PitShape hole, heap;
@@ -118,19 +95,11 @@ std::optional<Hollow> largest_hollow(const Fill& fill, const control::PitJob& jo
   return std::nullopt;
 }
 
-/// Returns the ends of the heap's strip and the places half a metre apart in between.
-std::vector<Vec2> heap_points(const control::PitJob& job) {
-  control::PitJob line = job;
-  line.dump_from = job.heap->from;
-  line.dump_to = job.heap->to;
-  return spoil_points(line);
-}
-
 /// Reports a heap in the hole, one that is too small, and one that no station reaches.
 void check_heap(const Fill& fill, const control::PitJob& job, const ArmReach& reach, double ring,
                 const control::JobPlan& plan, double axle_ahead,
                 std::vector<control::JobFault>& faults) {
-  const std::vector<Vec2> points = heap_points(job);
+  const std::vector<Vec2> points = heap_points(*job.heap);
   for (const Vec2& p : points) {
     if (!fill.hole.is_near(p, 0.5 * job.heap->width)) continue;
     faults.push_back({"from_m", place_text(p),
@@ -138,7 +107,7 @@ void check_heap(const Fill& fill, const control::PitJob& job, const ArmReach& re
                       "take the soil farther aside, or make heap_width_m smaller"});
     break;
   }
-  const double heap = fill.heap_volume();
+  const double heap = heap_volume(fill.heap);
   if (plan.volume > kLeastFault && heap < plan.volume)
     faults.push_back(
         {"from_m", number_text(heap, "m3"),
@@ -148,12 +117,7 @@ void check_heap(const Fill& fill, const control::PitJob& job, const ArmReach& re
   for (std::size_t i = 0; i < plan.stations.size(); ++i) {
     const control::PlanePose& at = plan.stations[i].at;
     const Vec2 centre = at.p + axle_ahead * Vec2(std::cos(at.yaw), std::sin(at.yaw));
-    const bool any = std::any_of(points.begin(), points.end(), [&](const Vec2& p) {
-      const Vec2 line = p - centre;
-      const double turn = std::remainder(std::atan2(line.y(), line.x()) - at.yaw, 2 * kPi);
-      return line.norm() <= most && line.norm() >= kFaceBegins && std::abs(turn) <= kHeapSector;
-    });
-    if (any) continue;
+    if (reaches_heap(points, centre, at.yaw, most)) continue;
     faults.push_back({"from_m", place_text(job.heap->from),
                       "station " + std::to_string(i + 1) + " at " + place_text(at.p) +
                           " reaches no soil of the heap",
@@ -202,10 +166,7 @@ std::vector<control::JobCut> fill_cuts(const control::PitJob& job, const ArmReac
   const double capacity = reach.arm().bucket().capacity;
   std::vector<control::JobCut> out;
   if (const std::optional<Hollow> hollow = largest_hollow(fill, job, reach.arm(), X_WB, surface)) {
-    control::PitJob scoops = job;
-    scoops.tolerance = 0;
-    scoops.area.depth = fill.heap.ground() - fill.heap.lowest();
-    out = cut_fan(scoops, fill.heap, reach, X_WB, surface, kHeapSector);
+    out = heap_cuts(job, fill.heap, reach, X_WB, surface);
     const Pose X_WS = X_WB * reach.arm().X_BS();
     const Vec2 centre = X_WS.translation().head<2>();
     const double yaw = control::plane_pose(X_WB).yaw;
@@ -223,7 +184,7 @@ std::vector<control::JobCut> fill_cuts(const control::PitJob& job, const ArmReac
     if (!out.empty()) return out;
   }
   PitShape around = fill.hole;
-  around.add_border(kBorder, kSkin);
+  around.add_border(kBorder, kHeapSkin);
   out = cut_fan(job, around, reach, X_WB, surface);
   control::PitJob back = job;
   back.dump_from = job.heap->from;

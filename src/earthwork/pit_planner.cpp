@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "earthwork/cut_fan.h"
 #include "earthwork/fill_planner.h"
+#include "earthwork/heap.h"
 #include "earthwork/pit_checks.h"
 #include "earthwork/pit_shape.h"
 #include "earthwork/spoil_place.h"
@@ -36,7 +37,9 @@ class PitPlanner final : public control::JobPlanner {
                         const control::SurfaceView& surface) const override {
     control::JobPlan out;
     try {
-      if (job.heap) return plan_fill(job, reach_, X_WB, surface);
+      if (job.heap)
+        return job.into_beds ? plan_loading(job, reach_, X_WB, surface)
+                             : plan_fill(job, reach_, X_WB, surface);
       const PitShape pit(job.area, surface);
       out.volume = pit.volume().design;
       const double rise =
@@ -55,6 +58,8 @@ class PitPlanner final : public control::JobPlanner {
 
   std::vector<control::JobCut> cuts(const control::PitJob& job, const Pose& X_WB,
                                     const control::SurfaceView& surface) const override {
+    if (job.heap && job.into_beds)
+      return heap_cuts(job, heap_shape(*job.heap, surface), reach_, X_WB, surface);
     if (job.heap) return fill_cuts(job, reach_, X_WB, surface);
     const PitShape pit(job.area, surface);
     std::vector<control::JobCut> out = cut_fan(job, pit, reach_, X_WB, surface);
@@ -67,7 +72,8 @@ class PitPlanner final : public control::JobPlanner {
 
   control::JobVolume volume(const control::PitJob& job,
                             const control::SurfaceView& surface) const override {
-    return job.heap ? fill_volume(job, surface) : PitShape(job.area, surface).volume();
+    if (!job.heap) return PitShape(job.area, surface).volume();
+    return job.into_beds ? loading_volume(job, surface) : fill_volume(job, surface);
   }
 
  private:
@@ -133,7 +139,7 @@ class PitPlanner final : public control::JobPlanner {
                   const control::SurfaceView& surface, control::JobPlan& plan) const {
     for (control::JobStation& one : plan.stations)
       one.cuts = static_cast<std::int64_t>(
-          cut_fan(job, pit, reach_, station_pose(one.at, rise, surface), surface).size());
+          count_strips(job, pit, reach_, station_pose(one.at, rise, surface), surface));
   }
 
   const control::ArmKinematics arm_;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/operated_machine.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,6 +23,39 @@ constexpr std::uint64_t kPayloadInterval = 12;
 
 const scene::MachineInWorld& placed(const sim::World& world, int machine) {
   return world.description().machines[static_cast<std::size_t>(machine)];
+}
+
+/// Returns the mass of the soil in the beds of the machine of this name [kg].
+double load_of(const sim::World& world, const std::string& name) {
+  double sum = 0;
+  for (const sim::ToolHandle& tool : world.machines().tools())
+    if (tool.is_bed() && world.machines().at(tool.machine()).name() == name) sum += tool.payload();
+  return sum;
+}
+
+/// Returns the first bed of the machine of this name; nothing if it has none or is unknown.
+std::optional<control::BedView> bed_of(const sim::World& world, const std::string& name) {
+  for (const sim::ToolHandle& tool : world.machines().tools()) {
+    const sim::MachineHandle machine = world.machines().at(tool.machine());
+    if (!tool.is_bed() || machine.name() != name) continue;
+    const scene::Bed& bed = machine.description().beds.front();
+    Eigen::AlignedBox3d box;
+    for (const scene::Shell& shell : machine.description().shells)
+      if (shell.name == bed.shell)
+        for (const Vec3& v : shell.vertices) box.extend(v);
+    const sim::LinkHandle link = machine.link(bed.link);
+    const Pose X_WL = link.pose();
+    const Vec3 half = 0.5 * box.sizes();
+    const Vec3 along = half.x() >= half.y() ? Vec3(half.x(), 0, 0) : Vec3(0, half.y(), 0);
+    control::BedView out;
+    out.middle = (X_WL * box.center()).head<2>();
+    out.to_end = (X_WL.linear() * along).head<2>();
+    out.rim = (X_WL * box.center()).z() + (X_WL.linear().row(2).cwiseAbs() * half).value();
+    out.speed = link.velocity().norm();
+    out.load = load_of(world, name);
+    return out;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -73,13 +109,8 @@ void OperatedMachine::connect_gauges() {
   if (bucket_) seen_.bucket_load = [bucket = bucket_->tool()] { return bucket.payload(); };
   if (bed_) seen_.bed_load = [bed = *bed_] { return bed.payload(); };
   const sim::World& world = world_;
-  seen_.load_of = [&world](const std::string& name) {
-    double sum = 0;
-    for (const sim::ToolHandle& tool : world.machines().tools())
-      if (tool.is_bed() && world.machines().at(tool.machine()).name() == name)
-        sum += tool.payload();
-    return sum;
-  };
+  seen_.load_of = [&world](const std::string& name) { return load_of(world, name); };
+  seen_.bed_of = [&world](const std::string& name) { return bed_of(world, name); };
   seen_.is_hitched = [&world](const std::string& name) {
     const std::vector<scene::Hitch>& hitches = world.description().hitches;
     for (std::size_t h = 0; h < hitches.size(); ++h)

@@ -124,7 +124,7 @@ class NameCheck {
     const std::vector<std::string> known =
         others([](const scene::MachineInWorld& one) { return !one.machine.beds.empty(); });
     for (std::size_t i = 0; i < program_.steps.size(); ++i)
-      if (const std::string into = control::step_of(program_.steps[i]).receiver(); !into.empty())
+      for (const std::string& into : control::step_of(program_.steps[i]).receivers())
         require(i, "into", into, known,
                 "must be the name of another machine with a bed in this world", faults);
     return faults;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,8 @@ class DigRig {
   /// True: what is poured out of the bucket fills the bed of a truck, whose load the operator sees.
   bool fills_bed = false;
   double poured = 0;  ///< [kg]
+  /// The bed that the operator sees of a truck of any name, except for its load; nothing: no truck.
+  std::optional<BedView> bed;
   /// Soil in the mouth of the bucket while it is lowered, counted as load [kg].
   double in_mouth = 0;
   /// Largest angle of the line from pin to tip at the start of a curl [rad].

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a truck: tip, wait_for.
+// The steps of a truck: tip, wait_for, wait_load.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/activities/tip.h"
 #include "control/activities/wait_for.h"
+#include "control/activities/wait_load.h"
 #include "control/operator.h"
 #include "core/error.h"
+#include "core/saved_state.h"
 
 namespace navvy::control {
 namespace {
@@ -132,10 +135,63 @@ TEST(Truck, DoesNotWaitForAnEventThatCannotOccur) {
   EXPECT_EQ(op.reports()[0].state, StepState::kBlocked);
 }
 
-TEST(Truck, ATipNeedsABed) {
+/// A bed into which soil falls at a rate, from one time to another.
+struct Loading {
+  double from = 0, until = 0, rate = 0;  // [s], [s], [kg/s]
+  /// Runs a program until it ends and returns when that was.
+  double run(Operator& op) const {
+    Observation seen;
+    seen.joints.resize(1);
+    double time = 0;
+    seen.bed_load = [&] { return rate * std::clamp(time - from, 0.0, until - from); };
+    for (; time < 500 && !op.ended(); time += kStep) op.update(seen, time, kStep);
+    return time;
+  }
+};
+
+TEST(Truck, WaitsUntilItIsLoadedAndTheBucketIsAway) {
+  Operator op(truck(), program({WaitLoad{1000, 60}}));
+  // 970 kg count as loaded: 50 s until the soil comes, 9.7 s, and 6 s for the bucket.
+  EXPECT_NEAR((Loading{50, 100, 100}.run(op)), 65.7, 1.1);
+  EXPECT_TRUE(op.done());
+  ASSERT_EQ(op.reports().size(), 1u);
+  EXPECT_EQ(op.reports()[0].measurements.at(0).name, "loaded_kg");
+}
+
+TEST(Truck, LeavesWithWhatItHasWhenNothingMoreComes) {
+  Operator some(truck(), program({WaitLoad{1000, 60}}));
+  EXPECT_NEAR((Loading{50, 55, 100}.run(some)), 115, 1.1);
+  EXPECT_TRUE(some.done());
+  EXPECT_NE(some.reports().at(0).reason.find("holds 500.00 kg of 1000.00 kg"), std::string::npos)
+      << some.reports().at(0).reason;
+  Operator none(truck(), program({WaitLoad{1000, 60}}));
+  EXPECT_NEAR((Loading{}.run(none)), 60, 1.1);
+  EXPECT_EQ(none.reports().at(0).state, StepState::kOutOfTime);
+}
+
+TEST(Truck, ResumesWhileItIsLoaded) {
+  Operator whole(truck(), program({WaitLoad{1000, 60}})),
+      half(truck(), program({WaitLoad{1000, 60}}));
+  Observation seen;
+  seen.joints.resize(1);
+  double load = 0;
+  seen.bed_load = [&] { return load; };
+  for (int i = 0; i < 3000; ++i, load += 0.1) whole.update(seen, i * kStep, kStep);
+  load_saved(saved(whole), half);
+  for (int i = 3000; i < 12000; ++i, load += 0.1) {
+    whole.update(seen, i * kStep, kStep);
+    half.update(seen, i * kStep, kStep);
+    ASSERT_EQ(half.ended(), whole.ended()) << i * kStep;
+  }
+  EXPECT_TRUE(half.done());
+  EXPECT_EQ(hash_of(half).digest(), hash_of(whole).digest());
+}
+
+TEST(Truck, TipsAndLoadsNeedABed) {
   scene::Machine machine = truck();
   machine.beds.clear();
   EXPECT_THROW(Operator(machine, program({Tip{1, 0}})), InputError);
+  EXPECT_THROW(Operator(machine, program({WaitLoad{1, 0}})), InputError);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "control/activity_step.h"
 
@@ -54,7 +55,9 @@ struct Repeat final : ActivityStep {
   /// Returns `steps`.
   int repeats() const override { return steps; }
   /// Returns `into`.
-  std::string receiver() const override { return into; }
+  std::vector<std::string> receivers() const override {
+    return into.empty() ? std::vector<std::string>{} : std::vector{into};
+  }
   /// Returns an activity with one phase, "repeat", which takes one control step.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   /// Reports an error if the program has fewer steps before this one.

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "control/activities/dig/dig.h"
+#include "control/activities/dig/fill.h"
 #include "control/activities/dig/seen_surface.h"
 #include "control/activities/drive_to.h"
 #include "control/activities/go_to.h"
@@ -23,13 +23,19 @@ constexpr double kAtStation = 0.3, kAtHeading = radians(6);
 // A drive is straight if the target is so little aside of the machine's axis [m] and its heading
 // differs by so little [rad].
 constexpr double kAside = 0.4, kTurned = radians(6);
-// A cut is begun at most so often at one station: soil falls back into some. A strip is levelled at
-// most so often: a full bucket leaves the rest of it.
+// A cut that brings little is begun at most so often at one station: soil falls back into some. A
+// strip is levelled at most so often: a full bucket leaves the rest of it.
 constexpr int kMostRepeats = 2, kMostPasses = 3;
+// Share of a heaped bucket that is little; after so many such cuts in a row a station is dug. After
+// so many scoops the machine looks for the best cut and place of the spoil again.
+constexpr double kLittle = 0.3;
+constexpr int kMostPoor = 4, kScoops = 2;
 // A strip of a heap gives at most so many scoops to one station.
 constexpr int kMostScoops = 12;
 // Share of the commanded volume: with more left, the pit is not done, as for a trench.
 constexpr double kUndone = 0.15;
+// The machine looks for a truck so often [s]: a look costs a pass over the particles.
+constexpr double kLookEvery = 0.5;
 // A levelled floor may deviate so many tolerances from its design.
 constexpr double kUneven = 2;
 
@@ -40,7 +46,10 @@ void AreaMemory::visit(Archive& a) {
   a("station", station);
   a.require(station >= 0 && station <= static_cast<std::int64_t>(stations.size()), "station",
             "the job has no such station");
+  a("working", working);
   a("begun", begun);
+  a("brought", brought);
+  a("poor", poor);
   a("cut", cut);
   a("cuts", cuts);
   a("failed", failed);
@@ -50,6 +59,10 @@ void AreaMemory::visit(Archive& a) {
   a("trouble", trouble);
   a("lacked", lacked);
   a("cycles", cycles);
+  a("waited", waited);
+  a("waiting", waiting);
+  a("aside", aside);
+  a("gain", gain);
 }
 
 AreaDigging::~AreaDigging() = default;
@@ -100,31 +113,47 @@ void AreaDigging::make_part() {
     step->speed = m.way == AreaMemory::Way::kAhead ? step_.speed : -step_.speed;
     step->tolerance = kAtStation;
     part = std::move(step);
+  } else if (phase_index() == kMakeRoom) {
+    part = std::make_unique<Swing>(0);
   } else {
-    auto step = std::make_unique<Dig>();
-    step->from = m.cut.near;
-    step->to = m.cut.far;
-    step->floor = m.cut.floor;
-    step->rim = m.cut.rim;
-    step->width = place_.arm->bucket().width;
-    step->depth = job_.pass_depth;
-    step->levels = m.cut.levels;
-    step->worth = m.cut.worth;
-    // One layer is one slice, also where the ground is higher than it was.
-    step->pass_depth = 2 * job_.pass_depth;
-    step->dump_at = m.cut.dump_at;
-    step->dump_height = step_.dump_height;
-    step->fill = step_.fill;
-    step->has_fill = step_.has_fill;
-    if (m.cut.fill > 0) {
-      // One scoop, no larger than the hollow that it fills.
-      step->max_cycles = 1;
-      step->has_fill = step_.has_fill || m.cut.fill < 1;
-      step->fill = std::min(step_.has_fill ? step_.fill : 1.0, m.cut.fill);
-    }
-    part = std::move(step);
+    part = std::make_unique<Dig>(cut_step());
   }
   part_.make(std::move(part), place_);
+}
+
+Dig AreaDigging::cut_step() {
+  Dig step;
+  step.from = m.cut.near;
+  step.to = m.cut.far;
+  step.floor = m.cut.floor;
+  step.rim = m.cut.rim;
+  step.width = place_.arm->bucket().width;
+  step.depth = job_.pass_depth;
+  step.levels = m.cut.levels;
+  step.worth = m.cut.worth;
+  step.scoops = job_.into_beds ? 1 : kScoops;
+  // One layer is one slice, also where the ground is higher than it was.
+  step.pass_depth = 2 * job_.pass_depth;
+  step.dump_at = m.cut.dump_at;
+  step.dump_height = step_.dump_height;
+  step.fill = step_.fill;
+  step.has_fill = step_.has_fill;
+  if (m.cut.fill > 0) {
+    // One scoop, no larger than the hollow that it fills.
+    step.max_cycles = 1;
+    step.has_fill = step_.has_fill || m.cut.fill < 1;
+    step.fill = std::min(step_.has_fill ? step_.fill : 1.0, m.cut.fill);
+  }
+  if (job_.into_beds) {
+    step.into = trucks_.name();
+    step.has_into = step.has_load = true;
+    step.load = step_.load;
+    step.gain = &m.gain;
+    step.dump_at = trucks_.middle();
+    step.spread = trucks_.spread();
+    step.dump_height = trucks_.height();
+  }
+  return step;
 }
 
 bool AreaDigging::select_cut(const Observation& seen) {
@@ -132,9 +161,12 @@ bool AreaDigging::select_cut(const Observation& seen) {
     return place_.jobs->cuts(job_, seen.X_WB, surface);
   });
   for (const JobCut& cut : cuts) {
-    const int most = cut.fill > 0 ? kMostScoops : cut.levels ? kMostPasses : kMostRepeats;
+    const int most = cut.levels ? kMostPasses : cut.fill > 0 ? kMostScoops : kMostRepeats;
     if (std::count(m.begun.begin(), m.begun.end(), cut.key) >= most) continue;
-    m.begun.push_back(cut.key);
+    if (!cut.levels && m.poor >= kMostPoor) continue;
+    m.working = true;
+    m.brought = 0;
+    if (cut.levels || cut.fill > 0) m.begun.push_back(cut.key);
     m.cut = cut;
     m.cycles = place_.handover.cycles;
     ++m.cuts;
@@ -146,12 +178,16 @@ bool AreaDigging::select_cut(const Observation& seen) {
 bool AreaDigging::go_on(const Observation& seen) {
   const auto stations = static_cast<std::int64_t>(m.stations.size());
   if (m.station >= stations) return conclude(seen);
-  // Cuts that were begun here mean that the machine has arrived, wherever digging has moved it.
-  if (m.begun.empty() && phase_index() != kDrive && !stands_at(seen, station().at)) {
+  // A cut that was begun here means that the machine has arrived, wherever digging has moved it.
+  if (!m.working && phase_index() != kDrive && !stands_at(seen, station().at)) {
     // The arm points ahead while the machine drives.
     enter(phase_index() == kTurn ? kDrive : kTurn);
     if (phase_index() == kDrive) aim(seen);
+  } else if (job_.into_beds && !trucks_.look(seen, place_, step_.dump_height)) {
+    return wait_for_truck(seen);
   } else if (select_cut(seen)) {
+    m.aside = false;
+    m.waiting = 0;
     enter(kCut);
   } else {
     leave_station();
@@ -162,28 +198,66 @@ bool AreaDigging::go_on(const Observation& seen) {
   return false;
 }
 
+bool AreaDigging::wait_for_truck(const Observation& seen) {
+  if (step_.loads && trucks_.loads() >= *step_.loads) {
+    m.station = static_cast<std::int64_t>(m.stations.size());
+    return false;
+  }
+  if (m.waiting >= step_.longest)
+    return Activity::fall_short(
+        StepState::kOutOfTime,
+        "no truck to load came within " + number_text(m.waiting, "s") + ": " + trucks_.text(seen));
+  if (m.aside) {
+    enter(kWait);
+    return false;
+  }
+  m.aside = true;
+  enter(kMakeRoom);
+  make_part();
+  part_->begin(seen);
+  return false;
+}
+
 void AreaDigging::leave_station() {
   ++m.station;
   m.begun.clear();
+  m.working = false;
+  m.poor = 0;
   m.detour = false;
   enter(kNext);
 }
 
-void AreaDigging::end_part() {
+bool AreaDigging::brought_little(const Observation& seen) const {
+  const auto cycles = static_cast<double>(place_.handover.cycles - m.cycles);
+  const scene::Soil soil = surface_soil(*seen.ground, 0.5 * (m.cut.near + m.cut.far));
+  const double full = place_.arm->bucket().capacity / soil.swell * soil.bank_density;
+  return m.brought <= kLittle * cycles * full;
+}
+
+void AreaDigging::end_cut(const Observation& seen, bool failed, const std::string& reason) {
+  if (m.cut.fill > 0) {
+    // A strip of a heap that gave no scoop is not asked again.
+    if (failed || m.cycles == place_.handover.cycles)
+      m.begun.insert(m.begun.end(), kMostScoops, m.cut.key);
+  } else if (!m.cut.levels && !trucks_.is_full(seen)) {
+    const bool little = failed || brought_little(seen);
+    if (little) m.begun.push_back(m.cut.key);
+    m.poor = little ? m.poor + 1 : 0;
+  }
+  if (!failed) return;
+  // Another cut may do, and what is left decides in the end.
+  ++m.failed;
+  place_.warn("the cut from " + place_text(m.cut.far) + " to " + place_text(m.cut.near) +
+              " is left: " + reason);
+}
+
+void AreaDigging::end_part(const Observation& seen) {
   const bool failed = fell_short(part_->state());
-  // A strip of a heap that gave no scoop is not asked again.
-  if (phase_index() == kCut && m.cut.fill > 0 && (failed || m.cycles == place_.handover.cycles))
-    m.begun.insert(m.begun.end(), kMostScoops, m.cut.key);
   const std::string reason = part_->reason();
   part_.clear();
+  if (phase_index() == kCut) return end_cut(seen, failed, reason);
   if (!failed) return;
-  if (phase_index() == kCut) {
-    // Another cut may do, and what is left decides in the end.
-    ++m.failed;
-    place_.warn("the cut from " + place_text(m.cut.far) + " to " + place_text(m.cut.near) +
-                " is left: " + reason);
-    return;
-  }
+  if (phase_index() == kMakeRoom) return place_.warn("a truck has little room: " + reason);
   const std::string where =
       "station " + std::to_string(m.station + 1) + " of " + std::to_string(m.stations.size());
   if (phase_index() == kDrive && m.way != AreaMemory::Way::kPlanned) {
@@ -201,9 +275,18 @@ void AreaDigging::end_part() {
 bool AreaDigging::update(const Observation& seen, double dt, Command& out) {
   if (part_) {
     const bool over = part_->advance(seen, dt, out);
-    if (const CycleEvent event = part_->take_event(); event != CycleEvent::kNone) tell(event);
-    if (over) end_part();
+    if (const CycleEvent event = part_->take_event(); event != CycleEvent::kNone) {
+      if (event == CycleEvent::kDumpStart) m.brought += seen.payload;
+      if (event == CycleEvent::kDumpStart && job_.into_beds) trucks_.count_pass(seen.payload);
+      tell(event);
+    }
+    if (over) end_part(seen);
     return false;
+  }
+  if (phase_index() == kWait) {
+    m.waited += dt;
+    m.waiting += dt;
+    if (phase_time() < kLookEvery) return false;
   }
   return go_on(seen);
 }
@@ -216,6 +299,9 @@ JobVolume AreaDigging::volume(const Observation& seen) const {
 }
 
 bool AreaDigging::conclude(const Observation& seen) {
+  const bool loaded = step_.loads && trucks_.loads() >= *step_.loads;
+  trucks_.end(seen);
+  if (step_.loads) return loaded || heap_is_empty(seen);
   const JobVolume volume = this->volume(seen);
   const bool dug = volume.left <= kUndone * volume.design;
   if (dug && (job_.tolerance == 0 || volume.rms <= kUneven * job_.tolerance)) return true;
@@ -231,28 +317,45 @@ bool AreaDigging::conclude(const Observation& seen) {
                                                        (m.trouble.empty() ? "" : "; " + m.trouble));
 }
 
+bool AreaDigging::heap_is_empty(const Observation& seen) {
+  return Activity::fall_short(StepState::kBlocked, "the heap gives no more soil for load " +
+                                                       std::to_string(trucks_.loads()) + " of " +
+                                                       std::to_string(*step_.loads) + ": " +
+                                                       trucks_.text(seen));
+}
+
 const char* AreaDigging::phase() const {
   if (part_) return part_->phase();
+  if (phase_index() == kWait) return "wait";
   return "plan";
 }
 
 std::vector<Measurement> AreaDigging::account(const Observation& seen) const {
   const JobVolume volume = this->volume(seen);
-  return {{"stations", static_cast<double>(m.stations.size())},
-          {"stations_done", static_cast<double>(m.station - m.missed)},
-          {"stations_missed", static_cast<double>(m.missed)},
-          {"cuts", static_cast<double>(m.cuts)},
-          {"cuts_failed", static_cast<double>(m.failed)},
-          {"design_volume_m3", volume.design},
-          {"volume_left_m3", volume.left},
-          {"deviation_rms_m", volume.rms}};
+  std::vector<Measurement> out = {{"stations", static_cast<double>(m.stations.size())},
+                                  {"stations_done", static_cast<double>(m.station - m.missed)},
+                                  {"stations_missed", static_cast<double>(m.missed)},
+                                  {"cuts", static_cast<double>(m.cuts)},
+                                  {"cuts_failed", static_cast<double>(m.failed)},
+                                  {"design_volume_m3", volume.design},
+                                  {"volume_left_m3", volume.left},
+                                  {"deviation_rms_m", volume.rms}};
+  if (!job_.into_beds) return out;
+  out.push_back({"waited_s", m.waited});
+  const std::vector<Measurement> loads = trucks_.account(seen);
+  out.insert(out.end(), loads.begin(), loads.end());
+  return out;
 }
 
 void AreaDigging::visit(Archive& a) {
   ActivityWith::visit(a);
-  a.require(phase_index() >= kNext && phase_index() <= kCut, "phase", "no phase of a dig_area");
+  a.require(phase_index() >= kNext && phase_index() <= kWait, "phase", "no phase of a dig_area");
+  trucks_.visit(a);
+  a.require(!job_.into_beds || phase_index() != kCut || trucks_.is_chosen(), "phase",
+            "soil is dug for no truck");
   part_.visit(a, [&] {
-    a.require(phase_index() != kNext, "running", "no part runs in this phase");
+    a.require(phase_index() != kNext && phase_index() != kWait, "running",
+              "no part runs in this phase");
     // A part is made for the present station.
     a.require(m.station < static_cast<std::int64_t>(m.stations.size()), "station",
               "a part runs, but all stations are done");

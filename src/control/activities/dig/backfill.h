@@ -3,6 +3,7 @@
 #pragma once
 
 #include "control/activities/dig/dig_area.h"
+#include "control/activities/dig/heap_source.h"
 
 namespace navvy::control {
 
@@ -27,12 +28,8 @@ struct Backfill final : DigArea {
     tolerance = 0.05;
     dump_height = 0.8;
   }
-  /// Ends (x, y) in W of the centre line of the heap [m].
-  Vec2 from = Vec2::Zero(), from_to = Vec2::Zero();
-  /// True if the scene file gives `from_to`; without it the heap is a square about `from`.
-  bool has_from_to = false;
-  /// Width of the strip from which the soil is taken [m].
-  double heap_width = 4;
+  /// Where the soil comes from.
+  HeapSource source;
 
   /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {
@@ -43,11 +40,7 @@ struct Backfill final : DigArea {
       "Depth of the filled ground below the ground at the start, at the first corner.");
     f("fall_deg", fall, {0, 30}, "Angle by which the filled ground falls.");
     f("fall_yaw_deg", fall_yaw, {-360, 360}, "Direction of the fall, from W's x.");
-    f("from_m", from, {-1e6, 1e6}, "Place of the heap in W.", scene::kNeeded);
-    f("from_to_m", from_to, {-1e6, 1e6},
-      "Other end of a windrow that begins at from_m; without it the heap is a square.",
-      scene::given(has_from_to));
-    f("heap_width_m", heap_width, {1, 20}, "Width of the strip of soil that is taken.");
+    source.describe(f);
     f("tolerance_m", tolerance, {0.005, 1},
       "Height (rms) over the plane above which a strip is taken off.");
     f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground at the dump.");
@@ -59,29 +52,27 @@ struct Backfill final : DigArea {
     f("speed_m_per_s", speed, {0.05, 20}, "Speed between stations.");
   }
   /// Reports errors as a dig_area does, and a heap off the site.
-  void check(const scene::StepSource& source) {
+  void check(const scene::StepSource& read) {
     // Where a dig_area has its spoil, this step has a corner of the fill.
     dump_at = dump_to =
-        polygon_numbers.size() < 2 ? from : Vec2(polygon_numbers[0], polygon_numbers[1]);
-    DigArea::check(source);
-    source.on_site("from_m", from);
-    if (has_from_to) source.on_site("from_to_m", from_to);
-    heap = JobHeap{from, has_from_to ? from_to : from, heap_width};
+        polygon_numbers.size() < 2 ? source.from : Vec2(polygon_numbers[0], polygon_numbers[1]);
+    DigArea::check(read);
+    source.check(read);
+    heap = source.heap();
   }
   /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns the corners of the fill and the ends of the windrow.
   std::vector<Vec2> places() const override {
-    std::vector<Vec2> out = polygon;
-    out.push_back(from);
-    if (has_from_to) out.push_back(from_to);
+    std::vector<Vec2> out = source.places();
+    out.insert(out.end(), polygon.begin(), polygon.end());
     return out;
   }
   /// Returns nothing: the step digs no pit.
   std::optional<PitJob> pit_job() const override { return std::nullopt; }
   /// Returns the first corner of the fill.
   std::optional<DumpPoint> dump_point() const override {
-    return DumpPoint{polygon.empty() ? from : polygon.front(), dump_height};
+    return DumpPoint{polygon.empty() ? source.from : polygon.front(), dump_height};
   }
 };
 

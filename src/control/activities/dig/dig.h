@@ -59,8 +59,17 @@ struct Dig final : ActivityStep {
   double rim = 0;
   /// Share of a full bucket below which the rest of a cut stays; used if `is_cut`.
   double worth = 0.3;
+  /// Number of scoops after which a cut ends, so that its job looks again; 0: no limit. Not an
+  /// element of scenes.
+  int scoops = 0;
   /// True for one pass along the whole floor, whatever it brings. Not an element of scenes either.
   bool levels = false;
+  /// Half of the line about `dump_at` over which the passes of a load are spread, in W [m]; zero:
+  /// all at one place. Not an element of scenes.
+  Vec2 spread = Vec2::Zero();
+  /// Where the gain that loading a bed has taught is kept from dig to dig (DiggingMemory::gain);
+  /// null: each dig begins with 1. Not an element of scenes.
+  double* gain = nullptr;
   /// Returns true for a cut of a job: soil that is left is no failure, and the floor is not cleaned
   /// up.
   bool is_cut() const { return !floor.empty(); }
@@ -103,7 +112,9 @@ struct Dig final : ActivityStep {
   /// Returns the point at which the step dumps the soil.
   std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }
   /// Returns `into`.
-  std::string receiver() const override { return into; }
+  std::vector<std::string> receivers() const override {
+    return into.empty() ? std::vector<std::string>{} : std::vector{into};
+  }
 };
 
 }  // namespace navvy::control

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <sstream>
 
 #include "control/activities/dig/area_digging.h"
 #include "control/arm_kinematics.h"
@@ -23,8 +25,14 @@ void DigArea::check(const scene::StepSource& source) {
                  (element() + std::string(" needs a machine with <navvy:bucket> and <navvy:arm> "
                                           "(boom, stick, bucket)"))
                      .c_str());
-  source.require(machine && machine->has_drive,
+  source.require(!needs_planner() || (machine && machine->has_drive),
                  (element() + std::string(" needs a machine with <navvy:drive>")).c_str());
+  std::istringstream names(into_names);
+  into.assign(std::istream_iterator<std::string>(names), {});
+  if (has_load != !into.empty())
+    source.error(has_load ? "load_kg" : "into", has_load ? source.written("load_kg") : into_names,
+                 "a job that loads trucks needs both their names and the mass of a load",
+                 "give <into> and <load_kg>, or neither");
   if (source.has("polygon_m"))
     if (const std::optional<scene::PolygonFault> fault =
             scene::polygon_of(polygon_numbers, polygon))
@@ -68,7 +76,8 @@ PitJob DigArea::job() const {
           dump_height,
           pass_depth,
           tolerance,
-          heap};
+          heap,
+          !into.empty()};
 }
 
 std::unique_ptr<Activity> DigArea::activity(OperatorContext& place) const {

@@ -54,8 +54,19 @@ struct DigArea : ActivityStep {
   bool has_fill = false;
   /// Speed between stations [m/s].
   double speed = 0.6;
-  /// Heap from which the area is filled. Only a backfill has one.
+  /// Heap from which the area is filled, or from which trucks are loaded.
   std::optional<JobHeap> heap;
+  /// Machines in whose beds the soil must land, as the file lists them and one by one; none: it is
+  /// dumped on the ground.
+  std::string into_names;
+  std::vector<std::string> into;
+  /// Mass to which each of their beds is loaded [kg]. True if the scene file gives it.
+  double load = 0;
+  bool has_load = false;
+  /// Time for which the machine waits for a truck [s].
+  double longest = 3600;
+  /// Number of loads after which the step is done; empty: when the pit is dug.
+  std::optional<int> loads;
 
   /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {
@@ -90,10 +101,22 @@ struct DigArea : ActivityStep {
   /// Returns the beginning of the windrow.
   std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }
 
+  /// Returns the machines in whose beds the soil must land.
+  std::vector<std::string> receivers() const override { return into; }
+
   /// Returns the job for the job planner.
   PitJob job() const;
 
  protected:
+  /// Lists the child elements of a job that loads trucks.
+  void describe_trucks(scene::Fields& f, scene::Mark mark = {}) {
+    f("into", into_names,
+      "Machines that are loaded in turn, separated by spaces: each one that stands within reach.",
+      mark);
+    f("load_kg", load, {1, 1e6}, "Mass of soil in the beds of each at which it is loaded.",
+      scene::given(has_load));
+    f("longest_s", longest, {0, 1e6}, "Longest time to wait for a machine to load.");
+  }
   /// Lists the child elements that every job has.
   void describe_work(scene::Fields& f) {
     f("batter_deg", batter, {15, 90}, "Angle of the sides from the horizontal; 90: vertical.");
@@ -108,6 +131,7 @@ struct DigArea : ActivityStep {
       "soil.",
       scene::given(has_fill));
     f("speed_m_per_s", speed, {0.05, 20}, "Speed between stations.");
+    describe_trucks(f);
   }
 };
 

@@ -26,6 +26,9 @@ constexpr double kRamp = 0.4;
 constexpr double kRampShare = 0.3, kMostShift = 1.2;
 // A pass along the floor keeps clear of the far wall by this [m].
 constexpr double kFarClear = 0.1;
+// Share of a cut's width, about its middle: at the sides columns are dug in part.
+constexpr double kInside = 0.8;
+constexpr int kStripes = 5;         // across the whole width of a trench
 constexpr double kBeside = 0.5;     // how far beside the cut spilt soil is looked for [m]
 constexpr double kOverload = 0.15;  // a load may be larger than a full bucket by this share of it
 constexpr double kThinner = 0.7;    // a slice after one that held the bucket, of that one
@@ -102,9 +105,18 @@ void DigPlan::derive() {
 }
 
 double DigPlan::height(const SurfaceView& surface, double s) const {
-  // Mean of three points across the middle of the cut: loose particles at the walls do not count.
   const Vec2 across(-along_.y(), along_.x());
   double sum = 0;
+  if (dig_.is_cut()) {
+    // Nearly the whole width, down to the floor: strips beside this one have dug into it.
+    const double floor = between(dig_.floor, s);
+    for (int k = 0; k < kStripes; ++k) {
+      const Vec2 p = point(s) + kInside * ((k + 0.5) / kStripes - 0.5) * dig_.width * across;
+      sum += std::max(floor, surface.height(p.x(), p.y()));
+    }
+    return sum / kStripes;
+  }
+  // Mean of three points across the middle of the cut: loose particles at the walls do not count.
   for (const double t : {-0.25, 0.0, 0.25}) {
     const Vec2 p = point(s) + t * dig_.width * across;
     sum += surface.height(p.x(), p.y());
@@ -204,7 +216,6 @@ double DigPlan::volume_above(const SurfaceView& surface, double level) const {
 TrenchState DigPlan::state(const SurfaceView& surface) const {
   // Over the whole width, where `height` samples the middle: soil that is left is left at the walls
   // too.
-  constexpr int kStripes = 5;
   const Vec2 across(-along_.y(), along_.x());
   // The first sample has no piece before it, as in volume_above.
   const double piece = dig_.width / kStripes * length_ / (samples() - 1);

@@ -57,6 +57,11 @@ constexpr double kLeastGain = 0.8, kMostGain = 1.25;
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
 constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.03;
+// Distances nearer and farther at which the bucket may open instead, and their number [m].
+constexpr double kAside = 0.25;
+constexpr int kAsides = 16;
+// A cut of a job ends with a scoop that brings less than this share of a load: another may do.
+constexpr double kPoor = 0.3;
 // During the return swing the arm comes down after this share of the swing.
 constexpr double kArmAfterSwing = 0.4;
 
@@ -64,20 +69,15 @@ constexpr double kArmAfterSwing = 0.4;
 
 void Digging::begin(const Observation& seen) {
   m.stance.begin(seen.X_WB);
-  const heightfield::Ground& ground = *seen.ground;
   // The soil at the trench's middle decides the mass of a full bucket.
-  const Vec2 middle = 0.5 * (dig_.from + dig_.to);
-  const Vec2i cell = ground.column_at(middle.x(), middle.y());
-  const auto& soils = ground.setup().soils;
-  const std::size_t kind =
-      ground.contains(cell.x(), cell.y()) ? ground.surface_soil(cell.x(), cell.y()) : 0;
-  const scene::Soil soil = kind < soils.size() ? soils[kind] : scene::Soil{};
+  const scene::Soil soil = surface_soil(*seen.ground, 0.5 * (dig_.from + dig_.to));
   const double fill = dig_.has_fill ? dig_.fill : usual_fill(soil, arm_);
   m.scoop_volume = fill * arm_.bucket().capacity / soil.swell;
   m.full_mass = m.scoop_volume * soil.bank_density;
   plan_ = with_surface(seen, [&](const SurfaceView& surface) {
     return DigPlan(dig_, trench_line(dig_, m.stance.swing_frame(arm_)), m.scoop_volume, surface);
   });
+  if (dig_.gain != nullptr) m.gain = *dig_.gain;
   // Cycles count over the whole program, limits over this dig.
   m.first_cycle = place_.handover.cycles;
   go_on(kReturn, seen);
@@ -85,12 +85,12 @@ void Digging::begin(const Observation& seen) {
 
 bool Digging::plan_scoop(const Observation& seen) {
   const double lack = lacking(seen);
-  // Without a stated mass the bed never has enough.
-  if (lack <= kLoaded * dig_.load) return false;
+  if (dig_.has_load && is_loaded(dig_.load - lack, dig_.load)) return false;
   // Both limits end the dig whatever the plan still sees.
   if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty)
     return false;
   if (dig_.levels && cycles() > 0) return false;
+  if (cut_is_over()) return false;
   Scoop scoop =
       dig_.levels ? plan_.whole_floor() : with_surface(seen, [&](const SurfaceView& surface) {
         return plan_.next(surface, m.hindered != 0);
@@ -111,6 +111,11 @@ bool Digging::plan_scoop(const Observation& seen) {
   m.scoop_end = scoop.end;
   m.scoop_level = scoop.level;
   return true;
+}
+
+bool Digging::cut_is_over() const {
+  if (!dig_.is_cut() || cycles() == 0) return false;
+  return (dig_.scoops > 0 && cycles() >= dig_.scoops) || m.cleaned < kPoor * m.full_mass;
 }
 
 double Digging::lacking(const Observation& seen) const {
@@ -158,18 +163,50 @@ void Digging::go_to_scoop(Phase next, const Observation& seen) {
   enter(next);
 }
 
-void Digging::start_carry(const Observation& seen) {
-  // The heap grows from cycle to cycle: the bucket opens over its present height.
-  const double heap = with_surface(
-      seen, [&](const SurfaceView& surface) { return heap_height(surface, dig_.dump_at); });
-  const Pose X_WS = m.stance.swing_frame(arm_);
-  const SwingPoint over = swing_point(X_WS, Vec3(dig_.dump_at.x(), dig_.dump_at.y(), heap));
-  ArmAngles q = place_.arm_angles();
-  double clearance = 0;
-  if (!dump_pose(arm_, X_WS, dig_.dump_at, heap, dig_.dump_height, q, clearance)) {
-    place_.warn("the heap is too high to dump on it, dumping from where the bucket is");
-    q = place_.arm_angles();
+void Digging::learn_gain(double payload) {
+  if (!dig_.has_load || m.wanted <= 0) return;
+  m.gain = std::clamp(m.gain * payload / m.wanted, kLeastGain, kMostGain);
+  if (dig_.gain != nullptr) *dig_.gain = m.gain;
+}
+
+Vec2 Digging::dump_place(const Observation& seen) const {
+  if (!dig_.has_load || dig_.spread.isZero()) return dig_.dump_at;
+  // Equal passes are laid side by side along the bed: each at the middle of its share.
+  const double share = (dig_.load - lacking(seen) + 0.5 * m.wanted) / dig_.load;
+  return dig_.dump_at + std::clamp(2 * share - 1, -1.0, 1.0) * dig_.spread;
+}
+
+ArmAngles Digging::opening_pose(const Observation& seen, const Pose& X_WS, Vec2& place) const {
+  const Vec2 axis = X_WS.translation().head<2>();
+  const Vec2 out = (place - axis).normalized();
+  const double reach = (place - axis).norm();
+  // On a heap that has grown too high the bucket opens nearer, or beyond it.
+  for (int i = 0; i <= kAsides; ++i) {
+    const double off = kAside * ((i + 1) / 2) * (i % 2 == 0 ? 1 : -1);
+    const Vec2 p = axis + (reach + off) * out;
+    ArmAngles q;
+    double clearance = 0;
+    if (!dump_pose(arm_, X_WS, p, heap_at(seen, p), dig_.dump_height, q, clearance)) continue;
+    if (i > 0)
+      place_.warn("the heap is too high to dump on it, dumping " + metres(std::abs(off)) +
+                  (off < 0 ? " nearer" : " farther out"));
+    place = p;
+    return q;
   }
+  place_.warn("the heap is too high to dump on it, dumping from where the bucket is");
+  return place_.arm_angles();
+}
+
+double Digging::heap_at(const Observation& seen, const Vec2& p) {
+  return with_surface(seen, [&](const SurfaceView& surface) { return heap_height(surface, p); });
+}
+
+void Digging::start_carry(const Observation& seen) {
+  Vec2 place = dump_place(seen);
+  const Pose X_WS = m.stance.swing_frame(arm_);
+  // The heap grows from cycle to cycle: the bucket opens over its present height.
+  const ArmAngles q = opening_pose(seen, X_WS, place);
+  const SwingPoint over = swing_point(X_WS, Vec3(place.x(), place.y(), heap_at(seen, place)));
   // Take the shorter arc; with limits, the only one.
   const double swing =
       arm_.swing_limited()
@@ -298,8 +335,9 @@ void Digging::start_scoop(const Observation& seen) {
 
 bool Digging::end_cycle(const Observation& seen) {
   // After a pause, look again: soil may have slid into the trench, or come to rest there. The cuts
-  // of a job are looked at together.
-  if (!dig_.is_cut() && (!move(seen) || phase_time() < kRest)) return false;
+  // of a job are looked at together; but what was dumped last must have landed in the bed.
+  const bool rests = !dig_.is_cut() || !dig_.into.empty();
+  if (rests && (!move(seen) || phase_time() < kRest)) return false;
   if (falls_short_of_receiver(seen)) return true;
   if (plan_scoop(seen)) {
     go_to_scoop(kReturn, seen);
@@ -318,7 +356,7 @@ bool Digging::conclude_load(const Observation& seen) {
   const std::string loaded = "'" + dig_.into + "' holds " + number_text(dig_.load - lack, "kg") +
                              " of " + number_text(dig_.load, "kg") + " after " +
                              std::to_string(cycles()) + " passes";
-  if (lack <= kLoaded * dig_.load) {
+  if (is_loaded(dig_.load - lack, dig_.load)) {
     remark(loaded);
     return true;
   }
@@ -328,7 +366,8 @@ bool Digging::conclude_load(const Observation& seen) {
 }
 
 bool Digging::conclude(const Observation& seen) {
-  if (dig_.has_load) return conclude_load(seen);
+  // A cut that is over before the bed is full is no failure: the job has others.
+  if (dig_.has_load && !dig_.is_cut()) return conclude_load(seen);
   const TrenchState now =
       with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
   const std::string left = number_text(now.left, "m3") + " of " +
@@ -420,9 +459,8 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
       break;
     case kSwing:
       if (!swing(seen)) break;
-      if (m.cleaning != 0) m.cleaned = seen.payload;
-      if (dig_.has_load && m.wanted > 0)
-        m.gain = std::clamp(m.gain * seen.payload / m.wanted, kLeastGain, kMostGain);
+      if (m.cleaning != 0 || dig_.is_cut()) m.cleaned = seen.payload;
+      learn_gain(seen.payload);
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       if (met_undiggable(seen))
         with_surface(seen,

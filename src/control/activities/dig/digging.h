@@ -28,7 +28,7 @@ struct DiggingMemory {
   std::int64_t clean_ups = 0;
   /// 1 if the current scoop is a cleaning pass along the whole floor, else 0.
   std::int64_t cleaning = 0;
-  /// Load of the last cleaning pass [kg].
+  /// Load of the last cleaning pass, in a cut of the last scoop [kg].
   double cleaned = 0;
   /// Current scoop: Scoop::start, Scoop::end and Scoop::level [m].
   double scoop_start = 0, scoop_end = 0, scoop_level = 0;
@@ -154,6 +154,17 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Continues the final look. Returns false while it lasts or if there is a further scoop, and
   /// true if the dig is over.
   bool end_cycle(const Observation& seen);
+  /// Returns the arm's angles at which the bucket is ready to open over `place`, which is moved
+  /// nearer or farther where the heap is too high.
+  ArmAngles opening_pose(const Observation& seen, const Pose& X_WS, Vec2& place) const;
+  /// Returns the height of a heap about `p` in W [m].
+  static double heap_at(const Observation& seen, const Vec2& p);
+  /// Learns from the payload of a scoop for a bed [kg] how much the curl adds or loses.
+  void learn_gain(double payload);
+  /// Returns the place (x, y) in W at which the bucket is to open [m].
+  Vec2 dump_place(const Observation& seen) const;
+  /// Returns true if the job is to look for another cut.
+  bool cut_is_over() const;
   /// Returns the mass that the bed still lacks [kg]; infinity without a stated mass.
   double lacking(const Observation& seen) const;
   /// Returns the payload that counts as full in the drag [kg].

@@ -24,4 +24,12 @@ double usual_fill(const scene::Soil& soil, const ArmKinematics& arm) {
   return struck + (1 - struck) * std::min(1.0, std::tan(repose));
 }
 
+scene::Soil surface_soil(const heightfield::Ground& ground, const Vec2& p) {
+  const Vec2i cell = ground.column_at(p.x(), p.y());
+  const auto& soils = ground.setup().soils;
+  const std::size_t kind =
+      ground.contains(cell.x(), cell.y()) ? ground.surface_soil(cell.x(), cell.y()) : 0;
+  return kind < soils.size() ? soils[kind] : scene::Soil{};
+}
+
 }  // namespace navvy::control

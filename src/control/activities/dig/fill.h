@@ -3,6 +3,7 @@
 #pragma once
 
 #include "control/arm_kinematics.h"
+#include "heightfield/layered_ground.h"
 #include "scene/soil.h"
 
 namespace navvy::control {
@@ -15,5 +16,8 @@ namespace navvy::control {
 /// their angle of repose, where the heaped capacity has a slope of 1:1; clay is cohesive with
 /// little friction (0.9); all other soil counts as loam (1.05).
 double usual_fill(const scene::Soil& soil, const ArmKinematics& arm);
+
+/// Returns the soil of the surface at `p` (x, y in W [m]); a default one outside of the site.
+scene::Soil surface_soil(const heightfield::Ground& ground, const Vec2& p);
 
 }  // namespace navvy::control
