@@ -7,6 +7,7 @@ import build
 import campaigns
 import fuzz
 import gpu_check
+import jobs
 import lint
 import nightly
 import packages
@@ -49,6 +50,7 @@ COMMANDS = {
     "fuzz": fuzz.fuzz_command,
     "fault": campaigns.fault_command,
     "soak": campaigns.soak_command,
+    "jobs": jobs.jobs_command,
     "sanitize": sanitize.sanitize_command,
     "nightly": nightly.nightly_command,
     "readers": campaigns.readers_command,

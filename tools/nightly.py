@@ -6,6 +6,7 @@ import time
 import build
 import campaigns
 import fuzz
+import jobs
 import lint
 import sanitize
 import testing
@@ -40,6 +41,7 @@ STEPS = [
         lambda: workspace.run(sys.executable, "-B", "tools/docs.py"),
     ),
     ("every fuzz target for a minute", lambda: fuzz.fuzz_command(["60"])),
+    ("jobs of record", lambda: jobs.jobs_command([])),
     ("slow cases", lambda: validate.validate_command([])),
 ]
 
@@ -49,7 +51,7 @@ def nightly_command(arguments):
 
     Lint of all sources, the core preset without cache and precompiled headers, tests with label
     nightly (each header by itself), `sanitize`, 20 simulated minutes of `soak` under the address
-    sanitizer, the Python wheel, the documentation's site, a minute of every fuzz target,
+    sanitizer, the Python wheel, the documentation's site, a minute of every fuzz target, `jobs`,
     `validate`. A step that fails does not keep the others from running; the command fails in the
     end. The table shows as skipped what needs the network where there is none.
     """
