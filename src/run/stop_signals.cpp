@@ -6,9 +6,11 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "core/long_work.h"
@@ -25,24 +27,47 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kTwice = 500;
 
 std::atomic<int> signals{0}, last{0};
-int quit_pipe[2] = {-1, -1};
+int quit_pipe[2] = {-1, -1}, caught_pipe[2] = {-1, -1};
 sigset_t before;
+struct sigaction before_action[std::size(kSignals)];
+
+/// Passes a signal on to the thread that watches. Only threads that were there before the signals
+/// were blocked get here.
+void pass_on(int signal) {
+  const int error = errno;
+  const auto byte = static_cast<char>(signal);
+  // A full pipe holds enough signals.
+  const ssize_t ignored = ::write(caught_pipe[1], &byte, 1);
+  static_cast<void>(ignored);
+  errno = error;
+}
+
+/// Makes a pipe; both ends are -1 if there is none.
+void open_pipe(int (&ends)[2]) {
+  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) ends[0] = ends[1] = -1;
+}
 
 }  // namespace
 
 // The signals are blocked here, before any other thread inherits the mask, and read from a file by
-// one thread. Handlers do not work: compilers inside drivers install their own, which delete the
-// files that they write and pass the signal on, and the build then fails as if the kernels were
-// wrong.
+// one thread. Handlers alone do not work: compilers inside drivers install their own, which delete
+// the files that they write and pass the signal on, and the build then fails as if the kernels were
+// wrong. A handler serves threads that libraries have started before `main`, as OpenBLAS does under
+// GDAL: they take signals that all others have blocked.
 StopSignals::StopSignals(Leave leave) : leave_(std::move(leave)) {
   signals = last = 0;
-  if (pipe2(quit_pipe, O_CLOEXEC | O_NONBLOCK) != 0) quit_pipe[0] = quit_pipe[1] = -1;
+  open_pipe(quit_pipe);
+  open_pipe(caught_pipe);
   sigset_t wanted;
   sigemptyset(&wanted);
-  for (const int signal : kSignals) {
-    struct sigaction now = {};
-    sigaction(signal, nullptr, &now);
-    if (signal != SIGHUP || now.sa_handler != SIG_IGN) sigaddset(&wanted, signal);
+  struct sigaction passes = {};
+  passes.sa_handler = pass_on;
+  passes.sa_flags = SA_RESTART;
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
+    sigaction(kSignals[i], nullptr, &before_action[i]);
+    if (kSignals[i] == SIGHUP && before_action[i].sa_handler == SIG_IGN) continue;
+    sigaddset(&wanted, kSignals[i]);
+    sigaction(kSignals[i], &passes, nullptr);
   }
   pthread_sigmask(SIG_BLOCK, &wanted, &before);
   signals_ = signalfd(-1, &wanted, SFD_CLOEXEC | SFD_NONBLOCK);
@@ -57,7 +82,13 @@ StopSignals::~StopSignals() {
   if (::write(quit_pipe[1], &byte, 1) < 0) over_ = true;
   watcher_.join();
   // A second signal may still be pending and would end the process before it returns its status.
-  if (!asked()) pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (!asked()) {
+    for (std::size_t i = 0; i < std::size(kSignals); ++i)
+      sigaction(kSignals[i], &before_action[i], nullptr);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    // A handler that still runs writes nowhere.
+    for (int& file : caught_pipe) ::close(std::exchange(file, -1));
+  }
   for (const int file : {signals_, quit_pipe[0], quit_pipe[1]}) ::close(file);
 }
 
@@ -92,14 +123,20 @@ void StopSignals::watch() {
   using Clock = std::chrono::steady_clock;
   Clock::time_point first{};
   while (!over_) {
-    pollfd in[] = {{signals_, POLLIN, 0}, {quit_pipe[0], POLLIN, 0}};
+    pollfd in[] = {{signals_, POLLIN, 0}, {quit_pipe[0], POLLIN, 0}, {caught_pipe[0], POLLIN, 0}};
     // Waits for a signal; after the first one it checks often.
-    poll(in, 2, signals > 0 ? 50 : 1000);
+    poll(in, std::size(in), signals > 0 ? 50 : 1000);
     signalfd_siginfo what{};
     bool came = false;
     while (::read(signals_, &what, sizeof what) == sizeof what) {
       came = true;
       last = static_cast<int>(what.ssi_signo);
+      ++signals;
+    }
+    char caught = 0;
+    while (::read(caught_pipe[0], &caught, 1) == 1) {
+      came = true;
+      last = caught;
       ++signals;
     }
     if (over_ || signals == 0) continue;
