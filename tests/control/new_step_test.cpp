@@ -28,7 +28,7 @@ constexpr double kStep = 0.01;  // [s]
 /// Nods with the boom a number of times, after another machine has finished its program if one is
 /// named.
 struct Nod final : ActivityStep {
-  static constexpr const char* kElement = "nod";
+  static constexpr const char* kElement = "salute";
   static constexpr const char* kText = "Nods with the boom.";
   int times = 1;
   std::string after;
@@ -39,7 +39,7 @@ struct Nod final : ActivityStep {
   }
   void check(const scene::StepSource& source) const {
     source.require(source.machine && !source.machine->arm.boom.empty(),
-                   "nod needs a machine with a boom");
+                   "salute needs a machine with a boom");
   }
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
@@ -49,7 +49,7 @@ struct Nod final : ActivityStep {
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override {
     if (times > 5)
-      check.fault("nod/times", std::to_string(times), "a machine nods at most five times",
+      check.fault("salute/times", std::to_string(times), "a machine nods at most five times",
                   "nod less");
   }
 };
@@ -154,8 +154,8 @@ struct Trial {
 };
 
 TEST(NewStep, IsReadAndRunsAfterOthersAndBeforeOthers) {
-  const scene::Scene world =
-      load(std::string(kWait) + "<nod><times>2</times></nod>" + kWait, kWait, kinds_with_nod());
+  const scene::Scene world = load(std::string(kWait) + "<salute><times>2</times></salute>" + kWait,
+                                  kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
   ASSERT_EQ(placed.program.steps.size(), 3u);
   ASSERT_NE(placed.program.steps[1].as<Nod>(), nullptr);
@@ -178,7 +178,7 @@ TEST(NewStep, IsReadAndRunsAfterOthersAndBeforeOthers) {
 }
 
 TEST(NewStep, ResumesBitIdenticallyFromASnapshot) {
-  const scene::Scene world = load("<nod><times>2</times></nod>", kWait, kinds_with_nod());
+  const scene::Scene world = load("<salute><times>2</times></salute>", kWait, kinds_with_nod());
   Trial whole(world.machines[0]), resumed(world.machines[0]);
   while (whole.op.phase() != "up") whole.step();
   const std::vector<char> bytes = saved(whole.op);
@@ -195,37 +195,38 @@ TEST(NewStep, ResumesBitIdenticallyFromASnapshot) {
 
 TEST(NewStep, ReportsItsFaultsWithLineAndElement) {
   const std::string text =
-      failure(std::string(kWait) + "\n<nod><times>20</times></nod>", kWait, kinds_with_nod());
+      failure(std::string(kWait) + "\n<salute><times>20</times></salute>", kWait, kinds_with_nod());
   expect_in("mine.sdf:4", text);
-  expect_in("navvy:program/nod/times", text);
+  expect_in("navvy:program/salute/times", text);
   expect_in("must be a number from 1 to 10", text);
-  expect_in("needs an element <times>", failure("<nod/>", kWait, kinds_with_nod()));
+  expect_in("needs an element <times>", failure("<salute/>", kWait, kinds_with_nod()));
 }
 
 TEST(NewStep, IsCheckedForItsReach) {
   const scene::Scene world =
-      load(std::string(kWait) + "<nod><times>7</times></nod>", kWait, kinds_with_nod());
+      load(std::string(kWait) + "<salute><times>7</times></salute>", kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
   const heightfield::Ground ground = flat_ground();
   const std::vector<Fault> faults = check_reach(placed.machine, placed.program, Pose::Identity(),
                                                 GroundSurfaceView(ground), "mine.sdf");
   ASSERT_EQ(faults.size(), 1u);
-  expect_in("step 2/nod/times", faults[0].text());
+  expect_in("step 2/salute/times", faults[0].text());
 }
 
 TEST(NewStep, CanWaitForOtherProgramsAndCyclesAreDetected) {
   const std::string second = "<wait_for><machine>first</machine></wait_for>";
-  const std::string first = "<nod><times>1</times><after>second</after></nod>";
+  const std::string first = "<salute><times>1</times><after>second</after></salute>";
   expect_in("the machines wait for each other", failure(first, second, kinds_with_nod()));
-  expect_in("no machine of this name",
-            failure("<nod><times>1</times><after>nobody</after></nod>", kWait, kinds_with_nod()));
+  expect_in(
+      "no machine of this name",
+      failure("<salute><times>1</times><after>nobody</after></salute>", kWait, kinds_with_nod()));
 }
 
 TEST(NewStep, IsUnknownWithoutItsRow) {
   expect_in("known here: drive_to, dig, swing, dump, wait, tip, wait_for, trajectory, go_to",
-            failure("<nod><times>2</times></nod>", kWait, step_kinds()));
-  expect_in("did you mean 'nod'?",
-            failure("<nodd><times>2</times></nodd>", kWait, kinds_with_nod()));
+            failure("<salute><times>2</times></salute>", kWait, step_kinds()));
+  expect_in("did you mean 'salute'?",
+            failure("<salutee><times>2</times></salutee>", kWait, kinds_with_nod()));
 }
 
 TEST(NewStep, MustBeAStepOfTheOperator) {

@@ -132,8 +132,9 @@ Dig AreaDigging::cut_step() {
   step.levels = m.cut.levels;
   step.worth = m.cut.worth;
   step.scoops = job_.into_beds ? 1 : kScoops;
-  // One layer is one slice, also where the ground is higher than it was.
-  step.pass_depth = 2 * job_.pass_depth;
+  // One layer is one slice, also where the ground is higher than it was. For a stated mass the
+  // slices of a heap are thin, or the curl brings far more than was aimed at.
+  step.pass_depth = (job_.heap && job_.into_beds ? 1 : 2) * job_.pass_depth;
   step.dump_at = m.cut.dump_at;
   step.dump_height = step_.dump_height;
   step.fill = step_.fill;
