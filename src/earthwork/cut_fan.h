@@ -11,7 +11,7 @@
 
 namespace navvy::earthwork {
 
-/// Where the strips of a fan may lie.
+/// Limits of the strips of a fan.
 struct FanLimits {
   /// Largest angle of a strip from straight ahead, to both sides [rad].
   double sector = kSector;

@@ -10,7 +10,7 @@
 #include "control/reach.h"
 #include "core/error.h"
 #include "earthwork/cut_fan.h"
-#include "earthwork/heap.h"
+#include "earthwork/heap_plan.h"
 #include "earthwork/pit_checks.h"
 #include "earthwork/pit_shape.h"
 #include "earthwork/spoil_place.h"

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "earthwork/cut_fan.h"
 #include "earthwork/fill_planner.h"
-#include "earthwork/heap.h"
+#include "earthwork/heap_plan.h"
 #include "earthwork/pit_checks.h"
 #include "earthwork/pit_shape.h"
 #include "earthwork/spoil_place.h"

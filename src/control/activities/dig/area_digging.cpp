@@ -258,7 +258,7 @@ void AreaDigging::end_part(const Observation& seen) {
   part_.clear();
   if (phase_index() == kCut) return end_cut(seen, failed, reason);
   if (!failed) return;
-  if (phase_index() == kMakeRoom) return place_.warn("a truck has little room: " + reason);
+  if (phase_index() == kMakeRoom) return place_.warn("a truck has little space: " + reason);
   const std::string where =
       "station " + std::to_string(m.station + 1) + " of " + std::to_string(m.stations.size());
   if (phase_index() == kDrive && m.way != AreaMemory::Way::kPlanned) {

@@ -28,7 +28,7 @@ struct Backfill final : DigArea {
     tolerance = 0.05;
     dump_height = 0.8;
   }
-  /// Where the soil comes from.
+  /// Source of the soil.
   HeapSource source;
 
   /// Lists the child elements of the step with their ranges and descriptions.

@@ -67,8 +67,8 @@ struct Dig final : ActivityStep {
   /// Half of the line about `dump_at` over which the passes of a load are spread, in W [m]; zero:
   /// all at one place. Not an element of scenes.
   Vec2 spread = Vec2::Zero();
-  /// Where the gain that loading a bed has taught is kept from dig to dig (DiggingMemory::gain);
-  /// null: each dig begins with 1. Not an element of scenes.
+  /// Gain that loading a bed has taught, kept from dig to dig (DiggingMemory::gain); null: each dig
+  /// begins with 1. Not an element of scenes.
   double* gain = nullptr;
   /// Returns true for a cut of a job: soil that is left is no failure, and the floor is not cleaned
   /// up.

@@ -25,7 +25,7 @@ struct Load final : DigArea {
       "Loads one or more trucks with soil from a heap or windrow, and waits for them.";
   /// Digs no area.
   Load() { depth = 0; }
-  /// Where the soil comes from.
+  /// Source of the soil.
   HeapSource source;
 
   /// Lists the child elements of the step with their ranges and descriptions.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "earthwork/heap.h"
+#include "earthwork/heap_plan.h"
 
 #include <algorithm>
 #include <cmath>
