@@ -182,7 +182,8 @@ ArmAngles Digging::opening_pose(const Observation& seen, const Pose& X_WS, Vec2&
   const double reach = (place - axis).norm();
   // On a heap that has grown too high the bucket opens nearer, or beyond it.
   for (int i = 0; i <= kAsides; ++i) {
-    const double off = kAside * ((i + 1) / 2) * (i % 2 == 0 ? 1 : -1);
+    const int steps = (i + 1) / 2;
+    const double off = kAside * (i % 2 == 0 ? steps : -steps);
     const Vec2 p = axis + (reach + off) * out;
     ArmAngles q;
     double clearance = 0;
