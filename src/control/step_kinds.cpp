@@ -6,7 +6,7 @@
 #include "control/activities/dig/dig.h"
 #include "control/activities/dig/dig_area.h"
 #include "control/activities/dig/grade.h"
-#include "control/activities/dig/load.h"
+#include "control/activities/dig/load_trucks.h"
 #include "control/activities/drive_to.h"
 #include "control/activities/dump.h"
 #include "control/activities/go_to.h"
@@ -30,7 +30,7 @@ const scene::StepKinds& step_kinds() {
       scene::step_kind<WaitFor>(),  scene::step_kind<Trajectory>(), scene::step_kind<GoTo>(),
       scene::step_kind<Unhitch>(),  scene::step_kind<DigArea>(),    scene::step_kind<Grade>(),
       scene::step_kind<Backfill>(), scene::step_kind<Repeat>(),     scene::step_kind<Compact>(),
-      scene::step_kind<IfShort>(),  scene::step_kind<Load>(),       scene::step_kind<WaitLoad>(),
+      scene::step_kind<IfShort>(),  scene::step_kind<LoadTrucks>(), scene::step_kind<WaitLoad>(),
   };
   return kinds;
 }

@@ -119,15 +119,20 @@ class Fan {
     return out;
   }
 
+  /// Calls `use` with kAcross points across the bucket, at the distance `r` [m] in a direction
+  /// [rad].
+  template <class Use>
+  void across(double r, double angle, const Use& use) const {
+    const Vec2 along(std::cos(angle), std::sin(angle)), aside(-along.y(), along.x());
+    for (int k = 0; k < kAcross; ++k)
+      use(Vec2(centre_ + r * along + width_ * ((k + 0.5) / kAcross - 0.5) * aside));
+  }
+
   /// Returns the mean height of the soil above `z` across the bucket [m].
   double above(double r, double angle, double z) const {
-    const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
     double sum = 0;
-    for (int k = 0; k < kAcross; ++k) {
-      const double t = width_ * ((k + 0.5) / kAcross - 0.5);
-      const Vec2 p = centre_ + r * along + t * across;
-      sum += std::max(0.0, surface_.height(p.x(), p.y()) - z);
-    }
+    across(r, angle,
+           [&](const Vec2& p) { sum += std::max(0.0, surface_.height(p.x(), p.y()) - z); });
     return sum / kAcross;
   }
 
@@ -171,14 +176,11 @@ class Fan {
   /// Returns the sum of the squares of the heights [m2] by which soil stands above the floor `z` of
   /// a strip, over kAcross places across it.
   double deviation(double r, double angle, double z) const {
-    const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
     double out = 0;
-    for (int k = 0; k < kAcross; ++k) {
-      const double t = width_ * ((k + 0.5) / kAcross - 0.5);
-      const Vec2 p = centre_ + r * along + t * across;
+    across(r, angle, [&](const Vec2& p) {
       if (!std::isnan(pit_.floor(p)))
         out += std::pow(std::max(0.0, surface_.height(p.x(), p.y()) - z), 2);
-    }
+    });
     return out;
   }
 

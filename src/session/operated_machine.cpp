@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/log.h"
+#include "session/bed_box.h"
 #include "session/uncontrolled_machine.h"
 #include "sim/occupied_areas.h"
 #include "sim/world_terrain.h"
@@ -39,10 +40,7 @@ std::optional<control::BedView> bed_of(const sim::World& world, const std::strin
     const sim::MachineHandle machine = world.machines().at(tool.machine());
     if (!tool.is_bed() || machine.name() != name) continue;
     const scene::Bed& bed = machine.description().beds.front();
-    Eigen::AlignedBox3d box;
-    for (const scene::Shell& shell : machine.description().shells)
-      if (shell.name == bed.shell)
-        for (const Vec3& v : shell.vertices) box.extend(v);
+    const Eigen::AlignedBox3d box = bed_box(machine.description(), bed, Pose::Identity());
     const sim::LinkHandle link = machine.link(bed.link);
     const Pose X_WL = link.pose();
     const Vec3 half = 0.5 * box.sizes();

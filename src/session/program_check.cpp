@@ -14,6 +14,7 @@
 #include "core/edit_distance.h"
 #include "heightfield/design_surface.h"
 #include "heightfield/make_ground.h"
+#include "session/bed_box.h"
 #include "sim/occupied_areas.h"
 #include "sim/start_placing.h"
 
@@ -23,17 +24,12 @@ namespace {
 constexpr double kUnderTip = 0.05;  // clearance of a bed's rim below the opening bucket [m]
 
 /// Returns the bounding box of a bed that is not tipped, in its machine's base frame [m].
-Eigen::AlignedBox3d bed_box(const scene::Machine& machine, const scene::Bed& bed) {
+Eigen::AlignedBox3d lowered_bed(const scene::Machine& machine, const scene::Bed& bed) {
   // Shells are in link frames; they are moved to the base link at zero joint positions.
-  Eigen::AlignedBox3d out;
+  const int link = machine.link_index(bed.link);
+  if (link < 0) return {};
   const Pose X_BM = machine.links.at(0).X_ML.inverse();
-  for (const scene::Shell& shell : machine.shells) {
-    const int link = machine.link_index(shell.link);
-    if (shell.name != bed.shell || link < 0) continue;
-    for (const Vec3& v : shell.vertices)
-      out.extend(X_BM * (machine.links[static_cast<std::size_t>(link)].X_ML * v));
-  }
-  return out;
+  return bed_box(machine, bed, X_BM * machine.links[static_cast<std::size_t>(link)].X_ML);
 }
 
 /// Finds beds that are too high for the point where a dig dumps. A warning: which of its
@@ -66,7 +62,7 @@ class BedCheck {
     // at any of them.
     double rim = 0;
     for (const scene::Bed& bed : truck.machine.beds) {
-      const Eigen::AlignedBox3d box = bed_box(truck.machine, bed);
+      const Eigen::AlignedBox3d box = lowered_bed(truck.machine, bed);
       for (const Pose& X_WB :
            control::stations(truck.machine, truck.program, X_WB_.at(other), surface_)) {
         Vec3 p_B = X_WB.inverse() * Vec3(dump.at.x(), dump.at.y(), X_WB.translation().z());

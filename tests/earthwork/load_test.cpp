@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trucks loaded from a windrow and from a pit: faults that show before a run, and whole jobs in a
 // closed loop; geometry only.
-#include "control/activities/dig/load.h"
+#include "control/activities/dig/load_trucks.h"
 
 #include <gtest/gtest.h>
 
@@ -25,15 +25,15 @@ namespace {
 
 using control::BedView;
 using control::DigArea;
-using control::Load;
+using control::LoadTrucks;
 using control::StepReport;
 using control::testing::DigRig;
 
 constexpr double kLoad = 2400;  // of a truck [kg]
 
 /// A windrow of 3 m ahead of a machine at (-4, 0); trucks stand beside it.
-Load load(int trucks) {
-  Load out;
+LoadTrucks load(int trucks) {
+  LoadTrucks out;
   out.loads = trucks;
   out.heap = control::JobHeap{Vec2(1.5, -1.5), Vec2(1.5, 1.5), 4};
   out.dump_at = Vec2(-2, 6);
@@ -101,12 +101,12 @@ void run_with_trucks(DigRig& rig, int trucks, const Vec2& place, double limit) {
 TEST(Load, NamesAHeapOutOfReachAndBedsOutOfReach) {
   const heightfield::Ground ground = control::testing::flat_ground();
   const auto planner = job_planners()(control::testing::ew180_like());
-  const auto text = [&](const Load& step) {
+  const auto text = [&](const LoadTrucks& step) {
     return text_of(
         planner->plan(step.job(), make_pose(-4, 0, 0), control::GroundSurfaceView(ground)));
   };
   EXPECT_EQ(text(load(1)), "");
-  Load far = load(1);
+  LoadTrucks far = load(1);
   far.heap->from.x() = far.heap->to.x() = 9;
   EXPECT_NE(text(far).find("no soil of the heap is within reach"), std::string::npos) << text(far);
   far = load(1);

@@ -45,10 +45,7 @@ struct Backfill final : DigArea {
       "Height (rms) over the plane above which a strip is taken off.");
     f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground at the dump.");
     f("pass_depth_m", pass_depth, {0.1, 5}, "Largest depth of a layer of the heap.");
-    f("fill", this->fill, {0.1, 1.5},
-      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
-      "soil.",
-      scene::given(has_fill));
+    describe_fill(f);
     f("speed_m_per_s", speed, {0.05, 20}, "Speed between stations.");
   }
   /// Reports errors as a dig_area does, and a heap off the site.

@@ -117,6 +117,13 @@ struct DigArea : ActivityStep {
       scene::given(has_load));
     f("longest_s", longest, {0, 1e6}, "Longest time to wait for a machine to load.");
   }
+  /// Lists the bucket fill factor.
+  void describe_fill(scene::Fields& f) {
+    f("fill", fill, {0.1, 1.5},
+      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
+      "soil.",
+      scene::given(has_fill));
+  }
   /// Lists the child elements that every job has.
   void describe_work(scene::Fields& f) {
     f("batter_deg", batter, {15, 90}, "Angle of the sides from the horizontal; 90: vertical.");
@@ -126,10 +133,7 @@ struct DigArea : ActivityStep {
       scene::given(has_dump_to));
     f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
     f("pass_depth_m", pass_depth, {0.1, 5}, "Largest depth of a layer.");
-    f("fill", fill, {0.1, 1.5},
-      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
-      "soil.",
-      scene::given(has_fill));
+    describe_fill(f);
     f("speed_m_per_s", speed, {0.05, 20}, "Speed between stations.");
     describe_trucks(f);
   }

@@ -17,14 +17,14 @@ namespace navvy::control {
 ///
 /// The step is done after a number of loads. It falls short if the heap gives no more soil, or if
 /// no truck comes in time.
-struct Load final : DigArea {
+struct LoadTrucks final : DigArea {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "load";
   /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText =
       "Loads one or more trucks with soil from a heap or windrow, and waits for them.";
   /// Digs no area.
-  Load() { depth = 0; }
+  LoadTrucks() { depth = 0; }
   /// Source of the soil.
   HeapSource source;
 
@@ -37,10 +37,7 @@ struct Load final : DigArea {
     f("loads", loads, {1, 10000}, "Number of trucks to load; by default one.");
     describe_trucks(f, scene::kNeeded);
     f("pass_depth_m", pass_depth, {0.1, 5}, "Largest depth of a layer of the heap.");
-    f("fill", fill, {0.1, 1.5},
-      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
-      "soil.",
-      scene::given(has_fill));
+    describe_fill(f);
   }
   /// Reports an error if the machine cannot dig, and for places off the site.
   void check(const scene::StepSource& read) {
