@@ -48,8 +48,7 @@ DOCS = [
     "doxygen",
 ]
 OCLGRIND = ["oclgrind"]
-# Not YADE, which brings a BLAS that starts threads before the program can block signals: `navvy
-# run` then dies of Ctrl-C instead of finishing its files.
+# Not YADE, which brings 140 packages.
 PEERS = ["lammps"]
 # libclc of the release of LLVM that clang is of.
 GPU_CHECK = ["clang", "libclc-14", "libclc-14-dev"]

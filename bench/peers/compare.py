@@ -6,9 +6,8 @@ A block of sand collapses in each: as MLS-MPM with a Drucker-Prager law in Taich
 cells, particles and time step of Navvy's case `soil_collapse_no_tool`; as grains with friction in
 LAMMPS and YADE, which need time steps eighty times shorter. Taichi and Warp come from PyPI into a
 virtual environment that this script makes; LAMMPS and YADE are Debian packages (apt-get install
-lammps yade; YADE brings OpenBLAS, with whose threads `navvy run` does not end cleanly at Ctrl-C:
-remove both, with apt-get autoremove, after a comparison). A code that is missing is named and left
-out. Codes run in turn, --rounds times; the least wall time and the least processor time count.
+lammps yade). A code that is missing is named and left out. Codes run in turn, --rounds times; the
+least wall time and the least processor time count.
 Rates are particle-steps per second: a step of one code is not the work of a step of another one, so
 the column step_ms stands beside them.
 """
