@@ -26,9 +26,10 @@ REGISTERS, REGISTERS_AT_ONCE = 65536, 256
 WARPS, WARPS_AT_ONCE, LANES = 64, 4, 32
 GROUPS = 32
 LOCAL_BYTES, LOCAL_AT_ONCE, LOCAL_RESERVED = 228 * 1024, 128, 1024
-# The assembler spills a few words by itself where that lets another group in; more of them means
-# that a kernel needs more registers than a work-item can have.
-SPILLED_AT_MOST = 32
+# The assembler spills some words by itself where that lets another group in; more of them means
+# that a kernel needs more registers than a work-item can have. On an H100 scatter took the same
+# time with at most 64, 80, 96 and 128 registers.
+SPILLED_AT_MOST = 160
 COLUMNS = (
     "kernel",
     "work-items of a group",

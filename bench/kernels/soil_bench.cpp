@@ -24,28 +24,30 @@ constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.
 bool profile = false;
 std::string only;
 
-/// Prints the times of the host's stages and of the kernels in one run; the kernels' clock slows a
-/// step down a little.
+/// Prints the times of the host's stages and of the kernels, each from a run of its own: the
+/// kernels' clock slows the host down.
 template <class Work>
 void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Work& work,
                    double particle_steps) {
   device::Device& device = soil::rig::Rig::device();
   load_saved(start, rig.solver());
-  device.set_profile(true);
-  device.clear_profile();
   const auto before = rig.solver().stage_times();
   work();
-  for (const device::KernelTime& time : device.profile())
-    std::printf("# kernel %-18s %6llu launches %9.3f ms %7.2f ns a particle-step\n",
-                time.name.c_str(), static_cast<unsigned long long>(time.launches),
-                time.seconds * 1e3, time.seconds * 1e9 / particle_steps);
-  device.set_profile(false);
   for (const auto& [stage, seconds] : rig.solver().stage_times()) {
     double took = seconds;
     for (const auto& [name, earlier] : before) took -= name == stage ? earlier : 0;
     std::printf("# stage  %-18s %26.3f ms %7.2f ns a particle-step\n", stage.c_str(), took * 1e3,
                 took * 1e9 / particle_steps);
   }
+  load_saved(start, rig.solver());
+  device.set_profile(true);
+  device.clear_profile();
+  work();
+  for (const device::KernelTime& time : device.profile())
+    std::printf("# kernel %-18s %6llu launches %9.3f ms %7.2f ns a particle-step\n",
+                time.name.c_str(), static_cast<unsigned long long>(time.launches),
+                time.seconds * 1e3, time.seconds * 1e9 / particle_steps);
+  device.set_profile(false);
 }
 
 /// Runs `steps` steps from the same snapshot and prints a row; tools keep their velocity.

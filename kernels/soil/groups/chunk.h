@@ -1,24 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 // Processing of a block's particles in chunks that fit local memory: sorts the particles of a chunk
-// by cell, and sums what the particles of one cell give to the nodes.
+// by cell, and sums what the particles of the cells give to the nodes.
 #ifndef NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 #define NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 
 #include "soil/groups/group.h"
 #include "soil/point.h"
 
-// Number of particles in a chunk: a multiple of NAVVY_LANES and at most CELLS.
-#define CHUNK 208
+// Number of particles in a chunk, and of work-items in a group.
+#define CHUNK 256
+// Words of 32 marks, one for each particle of a chunk.
+#define MARK_WORDS (CHUNK / 32)
+// Cells are summed in slabs of two layers, which are twelve rows of six cells along x. A row gives
+// to 8 x 3 x 3 nodes.
+#define SLAB_LAYERS 2
+#define SLAB_ROWS (6 * SLAB_LAYERS)
+#define SLAB_CELLS (6 * SLAB_ROWS)
+#define SLABS (CELLS / SLAB_CELLS)
+#define ROW_NODES 72
+// Work-items that sum a row together.
+#define TEAM 32
 
-// Words that are staged in local memory for each particle; word f of particle i is at f * CHUNK +
-// i. Words 0 .. 2 (STAGED_P): momentum at the base node. Words 3 .. 11 (STAGED_A): change of that
-// momentum per node along x, y and z. STAGED_MASS: mass [kg]. Words 13 .. 15 (STAGED_F): offset
-// from the base node [cells]. STAGED is the number of words.
-#define STAGED_P 0
-#define STAGED_A 3
-#define STAGED_MASS 12
-#define STAGED_F 13
-#define STAGED 16
+// A chunk in local memory.
+typedef struct Chunk {
+  // What each particle gives to the nodes, in the order of `first`: at i, momentum at the base node
+  // [kg m/s] and mass [kg]; at CHUNK * (1 + axis) + i, change of that momentum per node along the
+  // axis, and offset from the base node along it [cells].
+  float4 staged[4 * CHUNK];
+  // Needed one after the other.
+  union {
+    struct {
+      // For each cell, one bit per particle of the chunk.
+      uint marks[CELLS * MARK_WORDS];
+      // Number of particles of each cell, of each row of six cells, and of each layer.
+      int counts[CELLS], row_counts[CELLS / 6], layer_counts[CELLS / 36];
+    } sort;
+    // Momentum and mass that each row of a slab gives to its nodes: y and z after the row's own
+    // (0 .. 2) fastest, then x.
+    float4 sums[SLAB_ROWS * ROW_NODES];
+  } now;
+  // Position of the first particle of each cell among those sorted by cell.
+  int first[CELLS + 1];
+  // Tile of each particle, in the order of `first`.
+  uchar tiles[CHUNK];
+} Chunk;
 
 // Returns the index (x fastest, 0 .. CELLS - 1) of the cell of a particle's base node, from the
 // particle's position relative to the corner of its block [cells].
@@ -26,64 +51,115 @@ static inline int cell_of(float x, float y, float z) {
   return (int)base_node(x) + 1 + 6 * ((int)base_node(y) + 1) + 36 * ((int)base_node(z) + 1);
 }
 
-// Returns the position of this work-item's particle when the `count` particles of the chunk are
-// sorted by cell and, within a cell, by stored order.
-//
-// cells: cell of each particle; cell: that of this work-item's particle. first, counts: output, for
-// each cell the position of its first particle and the number of its particles; counts must be zero
-// before the call.
-static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first,
-                                 local int* counts) {
+// Marks this work-item's particle, if it has one, in its cell. Bits do not depend on the order in
+// which they are set.
+static inline void mark(local Chunk* chunk, bool has_particle, int cell) {
   const int me = get_local_id(0);
-  int lower = 0, earlier = 0;
-  // Every work-item counts on its own. This costs count^2 reads of local memory, but the order does
-  // not depend on the schedule, as that of atomics would.
-  for (int i = 0; i < count; ++i) {
-    lower += cells[i] < cell;
-    earlier += cells[i] == cell && i < me;
-  }
-  if (earlier == 0) first[cell] = lower;
-  atomic_inc(&counts[cell]);
-  return lower + earlier;
+  for (int i = me; i < CELLS * MARK_WORDS; i += CHUNK) chunk->now.sort.marks[i] = 0;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (has_particle) atomic_or(&chunk->now.sort.marks[MARK_WORDS * cell + me / 32], 1u << (me % 32));
+  barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-// Returns the index in the tile (8 x 8 x 8 nodes) of the base node of a cell (6 x 6 x 6).
-static inline int tile_node(int cell) { return cell % 6 + 8 * (cell / 6 % 6) + 64 * (cell / 36); }
+static inline int sum_of_six(local const int* counts) {
+  return counts[0] + counts[1] + counts[2] + counts[3] + counts[4] + counts[5];
+}
 
-// Sums the momentum [kg m/s] and mass [kg] that the particles of one cell give to the nine nodes of
-// one layer; sums: output, x fastest, one float4 (momentum, mass) per node.
-//
-// stage: staged words of the chunk; sides: tile of each particle; first, count: range of the cell's
-// particles; t: tile whose particles are summed, others are skipped; layer: 0, 1 or 2 nodes above
-// the base node.
-static inline void add_layer(local const float* stage, local const int* sides, int first, int count,
-                             int t, int layer, float4* sums) {
-  UNROLL
-  for (int o = 0; o < 9; ++o) sums[o] = (float4)(0.0f);
-  for (int i = first; i < first + count; ++i) {
-    if (sides[i] != t) continue;
-    local const float* staged = stage + i;
-    float wx[3], wy[3], wz[3];
-    spline(staged[(STAGED_F + 0) * CHUNK], wx);
-    spline(staged[(STAGED_F + 1) * CHUNK], wy);
-    spline(staged[(STAGED_F + 2) * CHUNK], wz);
-    const float4 start =
-        (float4)(staged[0], staged[CHUNK], staged[2 * CHUNK], staged[STAGED_MASS * CHUNK]);
-    const float4 ax = (float4)(staged[3 * CHUNK], staged[4 * CHUNK], staged[5 * CHUNK], 0.0f);
-    const float4 ay = (float4)(staged[6 * CHUNK], staged[7 * CHUNK], staged[8 * CHUNK], 0.0f);
-    const float4 az = (float4)(staged[9 * CHUNK], staged[10 * CHUNK], staged[11 * CHUNK], 0.0f);
-    const float w = layer == 0 ? wz[0] : layer == 1 ? wz[1] : wz[2];
-    // Momentum at a node is start + i ax + j ay + k az, built up by additions along the rows.
-    float4 row = start + (float)layer * az;
+// Returns the position of this work-item's particle when those of the chunk are sorted by cell and,
+// within a cell, by stored order. @pre `mark`. Sets `first`.
+static inline int place_in_chunk(local Chunk* chunk, int cell) {
+  const int me = get_local_id(0);
+  if (me < CELLS) {
+    int count = 0;
     UNROLL
-    for (int j = 0; j < 3; ++j) {
-      const float4 next = row + ax;
-      sums[3 * j] = fma((float4)(w * wy[j] * wx[0]), row, sums[3 * j]);
-      sums[3 * j + 1] = fma((float4)(w * wy[j] * wx[1]), next, sums[3 * j + 1]);
-      sums[3 * j + 2] = fma((float4)(w * wy[j] * wx[2]), next + ax, sums[3 * j + 2]);
-      row += ay;
-    }
+    for (int w = 0; w < MARK_WORDS; ++w)
+      count += popcount(chunk->now.sort.marks[MARK_WORDS * me + w]);
+    chunk->now.sort.counts[me] = count;
   }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (me < CELLS / 6) chunk->now.sort.row_counts[me] = sum_of_six(chunk->now.sort.counts + 6 * me);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (me < CELLS / 36)
+    chunk->now.sort.layer_counts[me] = sum_of_six(chunk->now.sort.row_counts + 6 * me);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (me <= CELLS) {
+    int before = 0;
+    for (int layer = 0; layer < me / 36; ++layer) before += chunk->now.sort.layer_counts[layer];
+    for (int row = me / 36 * 6; row < me / 6; ++row) before += chunk->now.sort.row_counts[row];
+    for (int i = me / 6 * 6; i < me; ++i) before += chunk->now.sort.counts[i];
+    chunk->first[me] = before;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  local const uint* marks = chunk->now.sort.marks + MARK_WORDS * cell;
+  int place = chunk->first[cell] + popcount(marks[me / 32] & ((1u << (me % 32)) - 1));
+  for (int w = 0; w < me / 32; ++w) place += popcount(marks[w]);
+  return place;
+}
+
+// One of the three weights of spline() in soil/point.h as a parabola: top + curve (f - middle)^2.
+typedef struct Weight {
+  float middle, curve, top;
+} Weight;
+
+// Returns the weight of the node `i` nodes after the base node along an axis.
+static inline Weight weight_of(int i) {
+  const Weight out = {1.5f - 0.5f * (float)i, i == 1 ? -1.0f : 0.5f, i == 1 ? 0.75f : 0.0f};
+  return out;
+}
+
+static inline float weigh(Weight weight, float f) {
+  const float d = f - weight.middle;
+  return fma(weight.curve * d, d, weight.top);
+}
+
+// Sums what the particles of tile t in each row of a slab give to the row's nodes; `mixed` is false
+// if all particles are of that tile. Along the row a work-item takes every third node, so that it
+// has one node at a time and no other work-item adds to that.
+static inline void sum_rows(local Chunk* chunk, int slab, int t, bool mixed) {
+  const int team = get_local_id(0) / TEAM, item = get_local_id(0) % TEAM;
+  if (item >= 27) return;
+  const int third = item % 3, beside = item / 3;
+  const float j = (float)(beside % 3), k = (float)(beside / 3);
+  const Weight of_y = weight_of(beside % 3), of_z = weight_of(beside / 3);
+  // After a re-bin the middle 4 x 4 cells of a layer have particles; this gives each team one row
+  // of them.
+  const int layer = team / 4;
+  for (int y = team % 4; y < 6; y += 4) {
+    local const int* first = chunk->first + SLAB_CELLS * slab + 36 * layer + 6 * y;
+    local float4* sums = chunk->now.sums + ROW_NODES * (6 * layer + y) + beside;
+    float4 sum = 0.0f;
+    for (int x = 0; x < 6; ++x) {
+      const int i = (third + 6 - x) % 3, end = first[x + 1];
+      const Weight of_x = weight_of(i);
+      PARTLY_UNROLL
+      for (int p = first[x]; p < end; ++p) {
+        const float4 start = chunk->staged[p], ax = chunk->staged[CHUNK + p],
+                     ay = chunk->staged[2 * CHUNK + p], az = chunk->staged[3 * CHUNK + p];
+        float w = weigh(of_z, az.w) * weigh(of_y, ay.w) * weigh(of_x, ax.w);
+        if (mixed && chunk->tiles[p] != t) w = 0.0f;
+        const float3 momentum =
+            fma((float3)(k), az.xyz, fma((float3)(j), ay.xyz, fma((float3)(i), ax.xyz, start.xyz)));
+        sum = fma((float4)(w), (float4)(momentum, start.w), sum);
+      }
+      if (i > 0) continue;
+      sums[9 * x] = sum;
+      sum = 0.0f;
+    }
+    if (third < 2) sums[9 * (6 + third)] = sum;
+  }
+}
+
+// Returns what the rows of a slab give to a node of the tile.
+static inline float4 from_rows(local const Chunk* chunk, int slab, int node) {
+  const int x = node % 8, y = node / 8 % 8, z = node / 64 - SLAB_LAYERS * slab;
+  float4 sum = 0.0f;
+  for (int layer = 0; layer < SLAB_LAYERS; ++layer)
+    for (int j = 0; j < 3; ++j) {
+      const int k = z - layer;
+      if (k >= 0 && k < 3 && y - j >= 0 && y - j < 6)
+        sum += chunk->now.sums[ROW_NODES * (6 * layer + y - j) + 9 * x + j + 3 * k];
+    }
+  return sum;
 }
 
 #endif  // NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H

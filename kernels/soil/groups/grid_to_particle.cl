@@ -52,24 +52,29 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     const float most) {
   local float4 front[TILE_SIZE], back[TILE_SIZE];
   local uchar split[TILE_SIZE];
-  local int fastest;
+  local int fastest, actives[27], nears[27];
   const int block = get_group_id(0), me = get_local_id(0);
   const ParticleBlock particle_block = particle_blocks[block];
   // The other schedule copies tiles by it; here split nodes choose their field when they are read.
   (void)used;
   if (me == 0) fastest = 0;
+  if (me < 27) {
+    actives[me] = neighbours[27 * block + me];
+    nears[me] = particle_block.near ? near_slot[actives[me]] : -1;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  UNROLL
   for (int i = me; i < TILE_SIZE; i += MEMBERS) {
     // Tile node -1..6 lies in the block before, this one or the one after.
     const int3 node = (int3)(i & 7, (i >> 3) & 7, i >> 6) - 1;
     const int3 d = (node + 4) / 4 - 1;
     const int3 in_block = node - 4 * d;
     const int n = in_block.x + 4 * in_block.y + 16 * in_block.z;
-    const int active = neighbours[27 * block + (d.x + 1) + 3 * (d.y + 1) + 9 * (d.z + 1)];
-    front[i] = velocity0[(size_t)active * BLOCK_NODES + n];
+    const int neighbour = (d.x + 1) + 3 * (d.y + 1) + 9 * (d.z + 1), near = nears[neighbour];
+    front[i] = velocity0[(size_t)actives[neighbour] * BLOCK_NODES + n];
     back[i] = (float4)(0.0f);
     split[i] = 0;
-    const int near = particle_block.near ? near_slot[active] : -1;
-    if (near >= 0 && node_split[near * BLOCK_NODES + n] != 0) {
+    if (near >= 0) {
       split[i] = (uchar)node_split[near * BLOCK_NODES + n];
       back[i] = velocity1[(size_t)near * BLOCK_NODES + n];
     }

@@ -4,12 +4,11 @@
 //
 // In, Out: as in soil/lanes/particle_to_grid.cl, tiles without padding.
 //
-// Parallel: one work-group per block. A work-item is first one particle of a chunk (law), then one
-// cell of base nodes. It adds up the particles of the cell for three layers of nodes in turn, and
-// adds the nine nodes of a layer to the tile one offset after the other. Cells of one offset share
-// no node, so nothing is atomic. Repeatable: particles in stored order, cell by cell. Host:
-// src/soil/particles/particle_to_grid.cpp. Reference:
-// tests/soil/reference/reference_solver.cpp.
+// Parallel: one work-group per block. A work-item is first one particle of a chunk (law), then
+// every third node of a row of cells, and adds up the particles of the row; then it owns two nodes
+// of the tile and adds up what the rows give to them. Nothing is atomic but marks. Repeatable:
+// particles in stored order, cell by cell. Host: src/soil/particles/particle_to_grid.cpp.
+// Reference: tests/soil/reference/reference_solver.cpp.
 #include "soil/groups/chunk.h"
 
 static inline LawSoil load_soil(constant SoilRow* row) {
@@ -19,12 +18,13 @@ static inline LawSoil load_soil(constant SoilRow* row) {
   return soil;
 }
 
-// Computes law and momentum of the particle in `slot`. Returns false when a value is not finite.
-// out: STAGED words.
+// Computes law and momentum of the particle in `slot` and stages them at `place`. Returns false
+// when a value is not finite.
 static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils,
                            float opening, float dt, float dx, float mixing, float most_mixing,
-                           float carried, float* out) {
-  constant SoilRow* row = soils + (as_int(LOAD(FIELD_TAG)) & 0xffff);
+                           float carried, local Chunk* chunk, int place) {
+  const int tag = as_int(LOAD(FIELD_TAG));
+  constant SoilRow* row = soils + (tag & 0xffff);
   const LawSoil soil = load_soil(row);
   float c[9], sigma[6];
   LawState soil_state;
@@ -41,14 +41,11 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
   float p[3], a[9];
   affine_momentum(c, sigma, v, f, mass, mass * row->inv_density, soil_state.j, carried, dt, dx, p,
                   a);
+  chunk->staged[place] = (float4)(p[0], p[1], p[2], mass);
   UNROLL
-  for (int i = 0; i < 3; ++i) {
-    out[STAGED_P + i] = p[i];
-    out[STAGED_F + i] = f[i];
-    UNROLL
-    for (int k = 0; k < 3; ++k) out[STAGED_A + 3 * k + i] = a[3 * i + k];
-  }
-  out[STAGED_MASS] = mass;
+  for (int k = 0; k < 3; ++k)
+    chunk->staged[CHUNK * (1 + k) + place] = (float4)(a[k], a[3 + k], a[6 + k], f[k]);
+  chunk->tiles[place] = (uchar)tile_of(tag >> 16);
   // A sum is finite only if each term is.
   const float sum = (x + y + z) + (p[0] + p[1] + p[2]) + (a[0] + a[4] + a[8]) +
                     (soil_state.j + soil_state.j0 + soil_state.shear) +
@@ -56,118 +53,108 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
   return isfinite(sum);
 }
 
-// Returns the mean opening J / J0 of a cell, by mass, 0 where no particle is open (mean_opening in
-// soil/point.h). A work-item is a cell.
-static inline float cell_opening(global const float* state, int capacity,
-                                 ParticleBlock particle_block, local int* cells,
-                                 local float* stage) {
+// Computes the mean opening J / J0 of each cell, by mass, 0 where no particle is open (mean_opening
+// in soil/point.h); a work-item is a cell. Returns bits of the tiles that this work-item's
+// particles need.
+static inline int find_openings(global float* state, int capacity, ParticleBlock particle_block,
+                                local Chunk* chunk, local float* openings) {
   const int me = get_local_id(0);
   float volume = 0.0f, bank = 0.0f;
   bool open = false;
+  int wanted = 1;
   for (int begin = 0; begin < particle_block.count; begin += CHUNK) {
-    const int count = min(CHUNK, particle_block.count - begin);
+    const bool mine = begin + me < particle_block.count;
     const int slot = particle_block.start + begin + me;
-    if (me < count) {
+    int cell = 0;
+    if (mine) {
       const float mass = convert_float(as_int(LOAD(FIELD_MASS)));
-      cells[me] = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
-      stage[me] = mass * LOAD(FIELD_J);
-      stage[CHUNK + me] = mass * LOAD(FIELD_J0);
+      const int tag = as_int(LOAD(FIELD_TAG));
+      cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
+      chunk->staged[me].xy = (float2)(mass * LOAD(FIELD_J), mass * LOAD(FIELD_J0));
+      if (particle_block.near)
+        wanted |= 1 << tile_of(tag >> 16);
+      else
+        // Far from every shell no particle has a side.
+        STORE(FIELD_TAG, as_float(tag & 0xffff));
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (int i = 0; i < count; ++i) {
-      if (cells[i] != me) continue;
-      volume += stage[i];
-      bank += stage[CHUNK + i];
-      open |= stage[i] > stage[CHUNK + i];
-    }
+    mark(chunk, mine, cell);
+    // The particles of a cell in stored order: from the lowest mark on.
+    for (int w = 0; w < MARK_WORDS && me < CELLS; ++w)
+      for (uint left = chunk->now.sort.marks[MARK_WORDS * me + w]; left != 0; left &= left - 1) {
+        const float2 one = chunk->staged[32 * w + 31 - (int)clz(left & -left)].xy;
+        volume += one.x;
+        bank += one.y;
+        open |= one.x > one.y;
+      }
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-  return mean_opening(volume, bank, open ? 1.0f : 0.0f);
+  if (me < CELLS) openings[me] = mean_opening(volume, bank, open ? 1.0f : 0.0f);
+  return wanted;
 }
 
-// Returns what a block needs: bit 0 always, bits 1 and 2 for the tiles of a shell's sides, bit 3
-// when any particle is open.
-static inline int needs(global float* state, int capacity, ParticleBlock particle_block) {
-  int out = 1;
-  for (int i = get_local_id(0); i < particle_block.count; i += CELLS) {
-    const int slot = particle_block.start + i, tag = as_int(LOAD(FIELD_TAG));
-    out |= LOAD(FIELD_J) > LOAD(FIELD_J0) ? 8 : 0;
-    if (particle_block.near)
-      out |= 1 << tile_of(tag >> 16);
-    else
-      // Far from every shell no particle has a side.
-      STORE(FIELD_TAG, as_float(tag & 0xffff));
+// Number of nodes of the tile that belong to a work-item.
+#define OWN (TILE_SIZE / CHUNK)
+
+// Adds a sorted chunk to the tiles: to `own`, those of this work-item's nodes in tile 0, and to the
+// others in memory.
+static inline void add_chunk(local Chunk* chunk, int mask, global float4* tiles, float4* own) {
+  const int me = get_local_id(0);
+  for (int t = 0; mask >> t; ++t) {
+    if (!(mask >> t & 1)) continue;
+    for (int slab = 0; slab < SLABS; ++slab) {
+      if (chunk->first[SLAB_CELLS * slab] == chunk->first[SLAB_CELLS * (slab + 1)]) continue;
+      sum_rows(chunk, slab, t, mask != 1);
+      barrier(CLK_LOCAL_MEM_FENCE);
+      UNROLL
+      for (int n = 0; n < OWN; ++n) {
+        const float4 more = from_rows(chunk, slab, me + CHUNK * n);
+        if (t == 0)
+          own[n] += more;
+        else
+          tiles[t * TILE_NODES + me + CHUNK * n] += more;
+      }
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
   }
-  return out;
 }
 
-__attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
+__attribute__((reqd_work_group_size(CHUNK, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant SoilRow* soils,
-    global const ParticleBlock* restrict particle_blocks, global float4* restrict tiles,
+    global const ParticleBlock* restrict particle_blocks, global float4* restrict all_tiles,
     global int* restrict used, global Report* restrict report, const float dt, const float dx,
     const float mixing, const float most_mixing, const float carried) {
-  local float4 tile[TILE_SIZE];
-  local float stage[STAGED * CHUNK];
-  local int cells[CHUNK], sides[CHUNK], first[CELLS], counts[CELLS];
+  local Chunk chunk;
   local float openings[CELLS];
   local int wanted, broken;
   const int block = get_group_id(0), me = get_local_id(0);
   const ParticleBlock particle_block = particle_blocks[block];
+  global float4* tiles = all_tiles + (size_t)particle_block.tile * TILE_NODES;
   if (me == 0) wanted = broken = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  atomic_or(&wanted, needs(state, capacity, particle_block));
-  for (int i = me; i < TILE_SIZE; i += CELLS) tile[i] = (float4)(0.0f);
-  openings[me] = 0.0f;
-  barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-  const int mask = wanted & 7;
-  for (int t = 1; mask >> t; ++t)
-    for (int i = me; i < TILE_SIZE; i += CELLS)
-      tiles[(size_t)(particle_block.tile + t) * TILE_NODES + i] = (float4)(0.0f);
-  if (wanted & 8) openings[me] = cell_opening(state, capacity, particle_block, cells, stage);
-  barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+  atomic_or(&wanted, find_openings(state, capacity, particle_block, &chunk, openings));
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const int mask = wanted;
+  float4 own[OWN];
+  UNROLL
+  for (int n = 0; n < OWN; ++n) {
+    own[n] = 0.0f;
+    for (int t = 1; mask >> t; ++t) tiles[t * TILE_NODES + me + CHUNK * n] = 0.0f;
+  }
 
   for (int begin = 0; begin < particle_block.count; begin += CHUNK) {
-    const int count = min(CHUNK, particle_block.count - begin);
-    float mine[STAGED];
-    int cell = 0, side = 0;
-    first[me] = counts[me] = 0;
-    if (me < count) {
-      const int slot = particle_block.start + begin + me;
-      cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
-      side = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
-      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing,
-                   carried, mine))
-        atomic_or(&broken, 1);
-      cells[me] = cell;
-    }
+    const bool mine = begin + me < particle_block.count;
+    const int slot = particle_block.start + begin + me;
+    const int cell = mine ? cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)) : 0;
+    mark(&chunk, mine, cell);
+    const int place = place_in_chunk(&chunk, cell);
+    if (mine && !prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing,
+                         carried, &chunk, place))
+      atomic_or(&broken, 1);
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (me < count) {
-      const int place = place_in_chunk(cells, count, cell, first, counts);
-      sides[place] = side;
-      UNROLL
-      for (int f = 0; f < STAGED; ++f) stage[f * CHUNK + place] = mine[f];
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (int t = 0; mask >> t; ++t)
-      if (mask >> t & 1)
-        for (int layer = 0; layer < 3; ++layer) {
-          float4 sums[9];
-          add_layer(stage, sides, first[me], counts[me], t, layer, sums);
-          UNROLL
-          for (int o = 0; o < 9; ++o) {
-            const int node = tile_node(me) + o % 3 + 8 * (o / 3) + 64 * layer;
-            if (counts[me] > 0) {
-              if (t == 0)
-                tile[node] += sums[o];
-              else
-                tiles[(size_t)(particle_block.tile + t) * TILE_NODES + node] += sums[o];
-            }
-            barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-          }
-        }
+    add_chunk(&chunk, mask, tiles, own);
   }
-  for (int i = me; i < TILE_SIZE; i += CELLS)
-    tiles[(size_t)particle_block.tile * TILE_NODES + i] = tile[i];
+  UNROLL
+  for (int n = 0; n < OWN; ++n) tiles[me + CHUNK * n] = own[n];
   if (me > 0) return;
   used[block] = mask;
   report[block].broken = broken;

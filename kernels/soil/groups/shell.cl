@@ -10,7 +10,7 @@
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 
-#define MEMBERS 64
+#define MEMBERS 256
 
 // Classifies near nodes. Out, per node: split (0 none, 1 in front, 2 behind), tool, and NodeShell.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void shell_nodes(
