@@ -121,7 +121,7 @@ cl_program build_program(const KernelProgram::State& state) {
   const auto slow = log_if_slow(device, "kernels/" + state.name);
   code = build_or_give_up(state, program);
   if (code == CL_SUCCESS) return program;
-  const std::string log = build_log(program, device);
+  const std::string log = with_files(build_log(program, device), state.source);
   // Not kept: a later launch would report the missing machine code instead of the log.
   clReleaseProgram(program);
   throw DeviceError("kernels/" + state.name + " does not build: " + error_name(code) +

@@ -2,8 +2,11 @@
 #include "device/source.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <iomanip>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "core/file.h"
@@ -93,6 +96,44 @@ std::string expand_includes(const std::string& path, const std::string& text) {
   std::string out;
   expand(path, text, seen, out);
   return out;
+}
+
+namespace {
+
+/// Returns the place of line `number` of an expanded text as `file:line`; empty if there is none.
+std::string place_of(const std::string& source, int number) {
+  const std::string directive = "#line ";
+  std::istringstream lines(source);
+  std::string file, line;
+  int next = 1;
+  for (int i = 0; i < number; ++i, ++next) {
+    if (!std::getline(lines, line)) return "";
+    if (line.rfind(directive, 0) != 0) continue;
+    // The directive numbers the line after it.
+    std::istringstream words(line.substr(directive.size()));
+    words >> next >> std::quoted(file);
+    --next;
+  }
+  return file.empty() ? "" : file + ":" + std::to_string(next - 1);
+}
+
+}  // namespace
+
+std::string with_files(const std::string& log, const std::string& source) {
+  const std::string mark = "<kernel>:";
+  std::string out;
+  std::size_t from = 0;
+  for (std::size_t at = log.find(mark); at != std::string::npos; at = log.find(mark, from)) {
+    std::size_t end = at + mark.size();
+    int number = 0;
+    const auto [digits_end, error] =
+        std::from_chars(log.data() + end, log.data() + log.size(), number);
+    const std::string place = error == std::errc() ? place_of(source, number) : "";
+    if (!place.empty()) end = static_cast<std::size_t>(digits_end - log.data());
+    out += log.substr(from, at - from) + (place.empty() ? mark : place);
+    from = end;
+  }
+  return out + log.substr(from);
 }
 
 KernelSources kernel_sources() {

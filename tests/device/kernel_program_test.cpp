@@ -71,6 +71,20 @@ TEST(KernelProgram, NamesFileAndLineOfABuildError) {
   EXPECT_NE(text.find("nope"), std::string::npos) << text;
 }
 
+TEST(KernelProgram, NamesFilesForACompilerThatCountsTheLinesOfTheWholeText) {
+  const std::string text = expand_includes(
+      "soil/broken.cl", "#include \"common/portable.h\"\n\nkernel void f() { int x = nope; }\n");
+  const auto line =
+      1 + std::count(text.begin(),
+                     text.begin() + static_cast<std::ptrdiff_t>(text.find("kernel void f")), '\n');
+  EXPECT_GT(line, 10);
+  EXPECT_EQ(with_files("<kernel>:" + std::to_string(line) + ":27: error: nope\n ^", text),
+            "soil/broken.cl:3:27: error: nope\n ^");
+  EXPECT_EQ(with_files("<kernel>:3:1: a", text), "common/portable.h:1:1: a");
+  // Lines that the text does not have stay as they are.
+  EXPECT_EQ(with_files("<kernel>:99999:1: a, <kernel>:b", text), "<kernel>:99999:1: a, <kernel>:b");
+}
+
 TEST(KernelProgram, NamesTheLineOfAMissingInclude) {
   const std::string text = build_error("soil/x.cl", "\n#include \"common/absent.h\"\n");
   EXPECT_NE(text.find("soil/x.cl:2: no kernel file 'common/absent.h'"), std::string::npos) << text;
