@@ -114,6 +114,26 @@ TEST(Load, NamesAHeapOutOfReachAndBedsOutOfReach) {
   EXPECT_NE(text(far).find("cannot be opened over the beds"), std::string::npos) << text(far);
 }
 
+TEST(Load, HoldsTheBucketOverTheBedWhileItsSoilLands) {
+  DigRig rig = rig_of(load(1), make_pose(-4, 0, 0));
+  heap_up(rig.ground, 1.2);
+  rig.fills_bed = true;
+  rig.bed = bed_at(load(1).dump_at);
+  const int bucket = control::testing::ew180_like().link_index("bucket");
+  const auto height = [&] { return rig.engine->link(0, bucket).X_WL.translation().z(); };
+  double held = 0, lowest = 100;
+  while (!rig.op.ended() && rig.time < 200) {
+    rig.step();
+    if (rig.cycles.empty() || rig.cycles.back().end == 0) continue;
+    const double since = rig.time - rig.cycles.back().end;
+    if (since < 0.1) held = height();
+    // The pause takes 2 s.
+    if (since > 0.1 && since < 1.9) lowest = std::min(lowest, height() - held);
+  }
+  EXPECT_GT(rig.cycles.size(), 2u);
+  EXPECT_GT(lowest, -0.05);
+}
+
 TEST(Load, LoadsTwoTrucksByEqualPassesAndWaitsForEach) {
   const LogLines log;
   DigRig rig = rig_of(load(2), make_pose(-4, 0, 0));

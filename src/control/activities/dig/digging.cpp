@@ -338,7 +338,10 @@ bool Digging::end_cycle(const Observation& seen) {
   // After a pause, look again: soil may have slid into the trench, or come to rest there. The cuts
   // of a job are looked at together; but what was dumped last must have landed in the bed.
   const bool rests = !dig_.is_cut() || !dig_.into.empty();
-  if (rests && (!move(seen) || phase_time() < kRest)) return false;
+  // A cut begins no move for the pause: advancing the carry again would take the arm back to the
+  // trench, down through the bed's side.
+  if (!dig_.is_cut() && !move(seen)) return false;
+  if (rests && phase_time() < kRest) return false;
   if (falls_short_of_receiver(seen)) return true;
   if (plan_scoop(seen)) {
     go_to_scoop(kReturn, seen);
