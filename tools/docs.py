@@ -402,6 +402,10 @@ def escaped(text):
 def api_pages(folder):
     """One page of reStructuredText for each module of src/ with public headers: {path: text}."""
     found, out = declared(folder), {}
+    # Overloads may be declared in several headers.
+    counts = collections.Counter(
+        name for things in found.values() for kind, name, _ in things if kind == "function"
+    )
     modules = collections.defaultdict(list)
     for header in sorted(found):
         relative = (
@@ -412,7 +416,6 @@ def api_pages(folder):
     for module, headers in modules.items():
         lines = [module, "=" * len(module), ""]
         for header, things in headers:
-            counts = collections.Counter(name for kind, name, _ in things if kind == "function")
             lines += [header, "-" * len(header), ""]
             for kind, name, element in things:
                 if kind in ("class", "struct"):
