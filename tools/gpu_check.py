@@ -26,10 +26,12 @@ REGISTERS, REGISTERS_AT_ONCE = 65536, 256
 WARPS, WARPS_AT_ONCE, LANES = 64, 4, 32
 GROUPS = 32
 LOCAL_BYTES, LOCAL_AT_ONCE, LOCAL_RESERVED = 228 * 1024, 128, 1024
-# The assembler spills some words by itself where that lets another group in; more of them means
-# that a kernel needs more registers than a work-item can have. On an H100 scatter took the same
-# time with at most 64, 80, 96 and 128 registers.
-SPILLED_AT_MOST = 160
+# The assembler spills a few words by itself where that lets another group in; more of them means
+# that a kernel needs more registers than a work-item can have.
+SPILLED_AT_MOST = 32
+# Scatter keeps sums over local memory in registers beside the law's. On an H100 it took the same
+# time with at most 64, 80 and 96 registers.
+SPILLED = {"particle_to_grid": 160}
 COLUMNS = (
     "kernel",
     "work-items of a group",
@@ -41,6 +43,11 @@ COLUMNS = (
     "occupancy",
     "limited by",
 )
+
+
+def spilled_at_most(kernel):
+    """Returns the bytes that a kernel may spill."""
+    return SPILLED.get(kernel.name.partition(",")[0], SPILLED_AT_MOST)
 
 
 def rounded_up(value, unit):
@@ -254,9 +261,9 @@ def gpu_check_command(arguments):
             writer.writerows(rows)
         say("rows are in %s; `./dev docs` renews the table of bench/README.md" % ROWS)
     faults = [
-        "%s spills %d bytes, more than %d" % (kernel.name, kernel.spilled, SPILLED_AT_MOST)
+        "%s spills %d bytes, more than %d" % (kernel.name, kernel.spilled, spilled_at_most(kernel))
         for kernel in kernels
-        if kernel.spilled > SPILLED_AT_MOST
+        if kernel.spilled > spilled_at_most(kernel)
     ]
     faults += [
         "no group of %s fits (%s)" % (kernel.name, row[-1])

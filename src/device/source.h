@@ -24,9 +24,8 @@ std::string kernel_source(const std::string& path);
 /// @throws DeviceError naming file and line of an include that does not exist
 std::string expand_includes(const std::string& path, const std::string& text);
 
-/// Returns the build log `log` of the expanded text `source` with the places that a compiler gives
-/// as
-/// `<kernel>:LINE` written as `file:line`: NVIDIA's compiler does not follow `#line`.
+/// Returns the build log `log` with each `<kernel>:LINE` replaced by `file:line`. `source` is the
+/// expanded text; NVIDIA's compiler ignores its `#line`.
 std::string with_files(const std::string& log, const std::string& source);
 
 /// The kernel files as a whole, as programs are built from them at the moment.

@@ -82,7 +82,7 @@ TEST(Device, ListsTheDevicesWhenNoneMatches) {
 }
 
 TEST(DeviceDeathTest, NamesPackagesToInstallWithoutAPlatform) {
-  // The program has then used the loader before the test.
+  // main() has then opened a device, so that the loader reads no list any more.
   if (std::getenv("NAVVY_TEST_DEVICE") != nullptr) GTEST_SKIP() << "NAVVY_TEST_DEVICE is set";
   // The child process starts anew, so that the loader reads the empty list of drivers.
   testing::FLAGS_gtest_death_test_style = "threadsafe";

@@ -17,7 +17,8 @@ typedef struct Around {
   int used[27], tile[27];
 } Around;
 
-// Loads the neighbours of active block `block`: all at once, as each takes three loads in turn.
+// Loads all neighbours of active block `block` at once: each takes a chain of dependent loads. All
+// work-items must call it; it ends with a barrier.
 static inline void load_around(local Around* here, int block, global const int* around,
                                global const ParticleBlock* particle_blocks,
                                global const int* used) {
@@ -42,7 +43,7 @@ static inline Overlap overlap(int up) {
   const int3 node = (int3)(me & 3, (me >> 2) & 3, (me >> 4) + up);
   Overlap out;
   // Nodes -1 .. 2 lie in the tile of the neighbour before, too, nodes 3 .. 6 in that of the next.
-  out.first = -1 - (node > 2);
+  out.first = select((int3)(-1), (int3)(0), node > 2);
   out.node = node + 1 - 4 * out.first;
   return out;
 }
@@ -77,6 +78,7 @@ static inline float4 tile_part(local const Around* here, int n, int t, int node,
 static inline float4 sum_of_tiles(local const Around* here, Overlap at,
                                   global const float4* tiles) {
   float4 sum = 0.0f;
+  // No UNROLL: PoCL 3.1 then computes zeros (kernels/README.md).
   for (int corner = 0; corner < 8; ++corner) {
     int node;
     const int n = neighbour_of(at, corner, &node);
@@ -125,16 +127,18 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     global const float4* restrict last0, global const float4* restrict last1, const float4 dv,
     const int hold, const int renew) {
   local Around here;
-  local float4 soils[27];
+  local float4 surfaces[27];
   const int near = get_group_id(0), me = get_local_id(0);
   const int block = list[near];
-  if (me < 27) soils[me] = block_surface[max(around[27 * block + me], 0)];
+  // The barrier in load_around publishes it.
+  if (me < 27) surfaces[me] = block_surface[max(around[27 * block + me], 0)];
   load_around(&here, block, around, particle_blocks, used);
   const Overlap at = overlap(0);
   float4 neutral = 0.0f, front = 0.0f, back = 0.0f;
   // Where all blocks around have the same surface, as almost everywhere, the node has exactly that.
   float4 surface = 0.0f, first = 0.0f;
   bool mixed = false, found = false;
+  // No UNROLL: PoCL 3.1 then computes zeros (kernels/README.md).
   for (int corner = 0; corner < 8; ++corner) {
     int node;
     const int n = neighbour_of(at, corner, &node);
@@ -146,11 +150,11 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     front += of_front;
     back += of_back;
     const float mass = of_neutral.w + of_front.w + of_back.w;
-    const float4 soil = soils[n];
-    if (!found) first = soil;
+    const float4 here_surface = surfaces[n];
+    if (!found) first = here_surface;
     found = true;
-    mixed = mixed || any(soil != first);
-    surface += soil * mass;
+    mixed = mixed || any(here_surface != first);
+    surface += here_surface * mass;
   }
   // Neutral soil joins the side of its node; an unsplit node joins all.
   const int near_node = near * BLOCK_NODES + me, split = node_split[near_node];

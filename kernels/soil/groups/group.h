@@ -10,9 +10,8 @@
 // Unrolls the loop that follows. Loops over small private arrays are unrolled so that the arrays
 // become registers, which a GPU cannot index.
 #define UNROLL _Pragma("unroll")
-// Lets several iterations of the loop that follows, whose length is not known, wait for local
-// memory at the same time.
-#define PARTLY_UNROLL _Pragma("unroll 4")
+// Unrolls the loop that follows by four, so that its loads from local memory overlap.
+#define UNROLL_BY_FOUR _Pragma("unroll 4")
 
 // TILE_SIZE: number of nodes of a tile (8 x 8 x 8 nodes around a block) without padding. CELLS:
 // number of cells of a tile that can contain the base node of a particle: -1 .. 4 along each axis,

@@ -4,11 +4,12 @@
 //
 // In, Out: as in soil/lanes/particle_to_grid.cl, tiles without padding.
 //
-// Parallel: one work-group per block. A work-item is first one particle of a chunk (law), then
-// every third node of a row of cells, and adds up the particles of the row; then it owns two nodes
-// of the tile and adds up what the rows give to them. Nothing is atomic but marks. Repeatable:
-// particles in stored order, cell by cell. Host: src/soil/particles/particle_to_grid.cpp.
-// Reference: tests/soil/reference/reference_solver.cpp.
+// Parallel: one work-group per block. For openings a work-item is a cell, for the law a particle of
+// a chunk. To sum, 27 of the 32 work-items of a team share a row of six cells: each takes every
+// third node of one of the nine lines of nodes that the row touches. Last, a work-item owns two
+// nodes of the tile and adds the rows' sums to them. Atomics set bits only. Repeatable: particles
+// in stored order, cell by cell. Host: src/soil/particles/particle_to_grid.cpp. Reference:
+// tests/soil/reference/reference_solver.cpp.
 #include "soil/groups/chunk.h"
 
 static inline LawSoil load_soil(constant SoilRow* row) {
@@ -54,19 +55,20 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
 }
 
 // Computes the mean opening J / J0 of each cell, by mass, 0 where no particle is open (mean_opening
-// in soil/point.h); a work-item is a cell. Returns bits of the tiles that this work-item's
-// particles need.
-static inline int find_openings(global float* state, int capacity, ParticleBlock particle_block,
-                                local Chunk* chunk, local float* openings) {
+// in soil/point.h), clears the sides of particles in blocks far from shells, and returns bits of
+// the tiles that this work-item's particles need. A work-item is a particle, then a cell. All
+// work-items must call it; it contains barriers.
+static inline int survey_particles(global float* state, int capacity, ParticleBlock particle_block,
+                                   local Chunk* chunk, local float* openings) {
   const int me = get_local_id(0);
   float volume = 0.0f, bank = 0.0f;
   bool open = false;
   int wanted = 1;
   for (int begin = 0; begin < particle_block.count; begin += CHUNK) {
-    const bool mine = begin + me < particle_block.count;
+    const bool has_particle = begin + me < particle_block.count;
     const int slot = particle_block.start + begin + me;
     int cell = 0;
-    if (mine) {
+    if (has_particle) {
       const float mass = convert_float(as_int(LOAD(FIELD_MASS)));
       const int tag = as_int(LOAD(FIELD_TAG));
       cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
@@ -77,10 +79,10 @@ static inline int find_openings(global float* state, int capacity, ParticleBlock
         // Far from every shell no particle has a side.
         STORE(FIELD_TAG, as_float(tag & 0xffff));
     }
-    mark(chunk, mine, cell);
+    mark(chunk, has_particle, cell);
     // The particles of a cell in stored order: from the lowest mark on.
     for (int w = 0; w < MARK_WORDS && me < CELLS; ++w)
-      for (uint left = chunk->now.sort.marks[MARK_WORDS * me + w]; left != 0; left &= left - 1) {
+      for (uint left = chunk->phase.sort.marks[MARK_WORDS * me + w]; left != 0; left &= left - 1) {
         const float2 one = chunk->staged[32 * w + 31 - (int)clz(left & -left)].xy;
         volume += one.x;
         bank += one.y;
@@ -131,7 +133,7 @@ __attribute__((reqd_work_group_size(CHUNK, 1, 1))) kernel void particle_to_grid(
   global float4* tiles = all_tiles + (size_t)particle_block.tile * TILE_NODES;
   if (me == 0) wanted = broken = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  atomic_or(&wanted, find_openings(state, capacity, particle_block, &chunk, openings));
+  atomic_or(&wanted, survey_particles(state, capacity, particle_block, &chunk, openings));
   barrier(CLK_LOCAL_MEM_FENCE);
   const int mask = wanted;
   float4 own[OWN];
@@ -142,13 +144,14 @@ __attribute__((reqd_work_group_size(CHUNK, 1, 1))) kernel void particle_to_grid(
   }
 
   for (int begin = 0; begin < particle_block.count; begin += CHUNK) {
-    const bool mine = begin + me < particle_block.count;
+    const bool has_particle = begin + me < particle_block.count;
     const int slot = particle_block.start + begin + me;
-    const int cell = mine ? cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)) : 0;
-    mark(&chunk, mine, cell);
+    const int cell =
+        has_particle ? cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)) : 0;
+    mark(&chunk, has_particle, cell);
     const int place = place_in_chunk(&chunk, cell);
-    if (mine && !prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing,
-                         carried, &chunk, place))
+    if (has_particle && !prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing,
+                                 most_mixing, carried, &chunk, place))
       atomic_or(&broken, 1);
     barrier(CLK_LOCAL_MEM_FENCE);
     add_chunk(&chunk, mask, tiles, own);

@@ -4,12 +4,15 @@
 //
 // In, Out: as in soil/lanes/shell.cl.
 //
-// Parallel: one work-group per near block, one node or particle per work-item. Repeatable: the
+// Parallel: one work-group per near block; a work-item is a node, or takes one particle after the
+// other. Repeatable: the
 // values of a block are found by integer atomics, which do not depend on order. Host:
 // src/soil/tools/shell.cpp.
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 
+// A block near a shell has some hundred particles. On an H100 256 work-items took 16 us for them,
+// 64 took 33 us.
 #define MEMBERS 256
 
 // Classifies near nodes. Out, per node: split (0 none, 1 in front, 2 behind), tool, and NodeShell.

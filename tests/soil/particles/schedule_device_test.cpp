@@ -114,6 +114,7 @@ Difference difference(const Outcome& a, const Outcome& b) {
   return out;
 }
 
+// Their macros take any number of arguments, which NVIDIA's compiler does not allow.
 constexpr const char* kLanesOnCpus = "the lanes are written for compilers of CPUs";
 
 TEST(SoilSchedule, BothAgreeAfterOneStepToRounding) {
@@ -149,13 +150,12 @@ TEST(SoilSchedule, BothAgreeOverADigWithRebins) {
 }
 
 TEST(SoilSchedule, GroupsRepeatBitForBitAndAreNotTheLanes) {
-  if (Rig::device().info().kind == device::Kind::kGpu) GTEST_SKIP() << kLanesOnCpus;
-  const Outcome first = dig("groups", 60, 0.01), again = dig("groups", 60, 0.01),
-                lanes = dig("lanes", 60, 0.01);
+  const Outcome first = dig("groups", 60, 0.01), again = dig("groups", 60, 0.01);
   EXPECT_GT(first.rebins, 0u);
   EXPECT_EQ(first.digest, again.digest);
+  if (Rig::device().info().kind == device::Kind::kGpu) return;
   // Otherwise the variable would have no effect.
-  EXPECT_NE(first.digest, lanes.digest);
+  EXPECT_NE(first.digest, dig("lanes", 60, 0.01).digest);
 }
 
 TEST(SoilSchedule, IsChosenByTheDeviceUnlessTheVariableSaysOtherwise) {
