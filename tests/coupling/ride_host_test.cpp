@@ -213,6 +213,22 @@ TEST_P(RideSoil, StopsOnASlopeOfItsMobilisedFriction) {
   EXPECT_GT(gentler, 0.05);
 }
 
+TEST_P(RideSoil, StandsStillUnderSoilThatLiesOnOneSideOfIt) {
+  heightfield::Ground ground = bed(soil_, 0.1, Vec2(12, 8));
+  Ride ride(machine_, ground, Vec2(4, kSide));
+  // 3 t, half a metre left of the middle, as impulses of each step.
+  const double weight = 3000 * kGravity;
+  const auto load = [&] {
+    const Pose X_WB = ride.engine().link(0, 0).X_WL;
+    ride.engine().apply_impulse_of_step(0, 0, Vec3(0, 0, -weight * Ride::kStep), Vec3::Zero(),
+                                        X_WB * Vec3(1.0, 0.5, 1.0), Ride::kStep);
+  };
+  ride.run(6, load);
+  const Vec3 before = ride.place_of_base();
+  ride.run(10, load);
+  EXPECT_LT((ride.place_of_base() - before).norm(), 1e-3);
+}
+
 TEST(Ride, ClimbsASlopeOutOfItsOwnRuts) {
   heightfield::Ground ground = bed(shipped_soil("loam"), 0.1, Vec2(16, 8),
                                    [](double x, double) { return (x - 3) * std::tan(radians(8)); });

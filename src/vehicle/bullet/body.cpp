@@ -177,6 +177,21 @@ double TreeBody::velocity(int joint) const {
   return k >= 0 && body_->getLink(k).m_dofCount == 1 ? body_->getJointVel(k) : 0;
 }
 
+LinkState TreeBody::moved_link(int i) const {
+  LinkState out = link(i);
+  if (added_.empty()) return out;
+  const Vec6 twist = twist_of(i, added_);
+  out.w_WL -= twist.head<3>();
+  out.v_WL -= twist.tail<3>();
+  return out;
+}
+
+double TreeBody::moved_velocity(int joint) const {
+  const int k = bullet_of_joint_[index(joint)];
+  if (added_.empty() || k < 0 || body_->getLink(k).m_dofCount != 1) return velocity(joint);
+  return velocity(joint) - added_[index(6 + body_->getLink(k).m_dofOffset)];
+}
+
 void TreeBody::set_position(int joint, double q) {
   const int k = bullet_of_joint_[index(joint)];
   if (k < 0 || body_->getLink(k).m_dofCount != 1) return;
@@ -357,6 +372,9 @@ bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const V
     support_.tail<3>() += J_W;
     body_->stepPositionsMultiDof(dt, nullptr, delta.data());
     moved();
+  } else if (dt > 0) {
+    added_.resize(delta.size(), 0.0);
+    for (std::size_t i = 0; i < delta.size(); ++i) added_[i] += delta[i];
   }
   // Only velocities changed; the articulated inertia depends on the pose.
   kinematics_valid_ = false;
@@ -403,6 +421,7 @@ Mat6 TreeBody::inverse_mass(int link) const {
 
 // Adds gravity to every link, then the expected support.
 void TreeBody::step_velocities(const Vec3& gravity, double dt) {
+  added_.clear();
   // Gravity is a force here, so that all forces take one articulated step.
   body_->addBaseForce(to_bt(Vec3(gravity * body_->getBaseMass())));
   for (int k = 0; k < body_->getNumLinks(); ++k)
@@ -451,11 +470,13 @@ void TreeBody::set_base(const LinkState& link) {
   body_->setWorldToBaseRot(to_bt(Mat3(X_WI.linear())).inverse());
   body_->setBaseVel(to_bt(v_W));
   body_->setBaseOmega(to_bt(link.w_WL));
+  added_.clear();
   moved();
 }
 
 void TreeBody::stop() {
   place(coordinates(), std::vector<double>(6 + index(body_->getNumDofs()), 0.0));
+  added_.clear();
   kinematics_valid_ = false;
 }
 
@@ -503,6 +524,7 @@ void TreeBody::visit(Archive& a) {
   std::vector<double> q = coordinates(), qd = velocities();
   a.fixed("coordinates", q);
   a.fixed("velocities", qd);
+  a("added", added_);
   a("support", support_);
   a("bearing", bearing_);
   a.require(support_.allFinite() && bearing_.allFinite(), "bearing",
@@ -515,6 +537,9 @@ void TreeBody::visit(Archive& a) {
   a.require(std::abs(Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm() - 1) < 1e-6, "coordinates",
             "a machine's rotation must be a unit quaternion");
   a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "velocities must be finite");
+  a.require((added_.empty() || added_.size() == qd.size()) &&
+                std::all_of(added_.begin(), added_.end(), finite),
+            "added", "must be as many finite velocities as the machine has, or none");
   place(q, qd);
   // A snapshot is between two steps: no force of the last one remains.
   expected_.clear();

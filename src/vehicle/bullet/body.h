@@ -48,6 +48,11 @@ class TreeBody {
   double position(int joint) const;
   /// Returns the velocity [rad/s|m/s] of a revolute or prismatic joint; 0 for other joints.
   double velocity(int joint) const;
+  /// Returns the state of a link as of the end of the last step: without the velocity that
+  /// impulses of a step have added since (apply_impulse()), with which nothing has moved yet.
+  LinkState moved_link(int link) const;
+  /// Returns the velocity [rad/s|m/s] of a joint as of the end of the last step, as moved_link().
+  double moved_velocity(int joint) const;
   /// Sets the position of a revolute or prismatic joint to `q` [rad|m]. Velocities do not change.
   /// Does nothing for other joints.
   void set_position(int joint, double q);
@@ -182,6 +187,9 @@ class TreeBody {
   /// (angular about the centre of mass, linear). `support_` is the impulse applied since the last
   /// step [N m s, N s], `bearing_` its mean over the last steps as a force [N m, N].
   Vec6 support_ = Vec6::Zero(), bearing_ = Vec6::Zero();
+  /// Generalised velocities that impulses of a step have added since the last step; empty if there
+  /// were none.
+  std::vector<double> added_;
   /// Change of the generalised velocity that step_velocities() added for the expected support and
   /// step_positions() removes again; empty if there is none.
   std::vector<double> expected_;

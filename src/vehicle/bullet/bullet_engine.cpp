@@ -40,7 +40,7 @@ constexpr int kMostShapes = 16384;
 // Depth below the surface [m] at which a machine has fallen through: no ground is as thick above a
 // body.
 constexpr double kLost = 10;
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 /// Contacts and pairs of bodies for which Bullet reserves memory when a world is made; it allocates
 /// further ones singly. Its own 4096 take megabytes and a seventh of the time to make a world.

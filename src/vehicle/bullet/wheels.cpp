@@ -61,16 +61,18 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
   }
 }
 
-// The carrier's motion, with the wheel's spin kept apart.
+// The carrier's motion, with the wheel's spin kept apart. It is the motion by which the wheel has
+// moved: an impulse of the soil on the machine's tools has changed velocities since, but the ground
+// answers to it in the step that moves the wheel. Otherwise a loaded truck at rest would creep.
 terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) const {
   // Use the carrier: the wheel's own link spins, and its pose has no forward direction.
-  const LinkState carrier = tree_.link(wheel.carrier_link);
+  const LinkState carrier = tree_.moved_link(wheel.carrier_link);
   terramechanics::TyreMotion motion;
   motion.X_WWheel = wheel_pose(carrier.X_WL, wheel.axis_C, wheel.center_C);
   motion.w_W = carrier.w_WL;
   motion.v_W =
       carrier.v_WL + carrier.w_WL.cross(motion.X_WWheel.translation() - carrier.X_WL.translation());
-  motion.spin = tree_.velocity(wheel.spin_joint);
+  motion.spin = tree_.moved_velocity(wheel.spin_joint);
   motion.spin_inertia = wheel.spin_inertia;
   return motion;
 }
@@ -97,13 +99,13 @@ Vec3 MachineWheels::push(const terramechanics::GroundQuery& ground, double dt) {
 }
 
 terramechanics::TrackMotion MachineWheels::track_motion(const MachineWheel& wheel) const {
-  const LinkState carrier = tree_.link(wheel.carrier_link);
+  const LinkState carrier = tree_.moved_link(wheel.carrier_link);
   terramechanics::TrackMotion motion;
   motion.X_WC = carrier.X_WL;
   motion.v_W = carrier.v_WL;
   motion.w_W = carrier.w_WL;
   motion.p_sprocket = wheel.center_C;
-  motion.spin = tree_.velocity(wheel.spin_joint);
+  motion.spin = tree_.moved_velocity(wheel.spin_joint);
   motion.spin_inertia = wheel.spin_inertia;
   return motion;
 }
