@@ -26,10 +26,9 @@ constexpr double kAside = 0.4, kTurned = radians(6);
 // A cut that brings little is begun at most so often at one station: soil falls back into some. A
 // strip is levelled at most so often: a full bucket leaves the rest of it.
 constexpr int kMostRepeats = 2, kMostPasses = 3;
-// Share of a heaped bucket that is little; after so many such cuts in a row a station is dug. After
-// so many scoops the machine looks for the best cut and place of the spoil again.
+// Share of a heaped bucket that is little; after so many such cuts in a row a station is dug.
 constexpr double kLittle = 0.3;
-constexpr int kMostPoor = 4, kScoops = 2;
+constexpr int kMostPoor = 4;
 // A strip of a heap gives at most so many scoops to one station.
 constexpr int kMostScoops = 12;
 // Share of the commanded volume: with more left, the pit is not done, as for a trench.
@@ -131,7 +130,6 @@ Dig AreaDigging::cut_step() {
   step.depth = job_.pass_depth;
   step.levels = m.cut.levels;
   step.worth = m.cut.worth;
-  step.scoops = job_.into_beds ? 1 : kScoops;
   // One layer is one slice, also where the ground is higher than it was. For a stated mass the
   // slices of a heap are thin, or the curl brings far more than was aimed at.
   step.pass_depth = (job_.heap && job_.into_beds ? 1 : 2) * job_.pass_depth;

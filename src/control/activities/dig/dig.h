@@ -59,9 +59,6 @@ struct Dig final : ActivityStep {
   double rim = 0;
   /// Share of a full bucket below which the rest of a cut stays; used if `is_cut`.
   double worth = 0.3;
-  /// Number of scoops after which a cut ends, so that its job looks again; 0: no limit. Not an
-  /// element of scenes.
-  int scoops = 0;
   /// True for one pass along the whole floor, whatever it brings. Not an element of scenes either.
   bool levels = false;
   /// Half of the line about `dump_at` over which the passes of a load are spread, in W [m]; zero:

@@ -60,8 +60,6 @@ constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFlo
 // Distances nearer and farther at which the bucket may open instead, and their number [m].
 constexpr double kAside = 0.25;
 constexpr int kAsides = 16;
-// A cut of a job ends with a scoop that brings less than this share of a load: another may do.
-constexpr double kPoor = 0.3;
 // During the return swing the arm comes down after this share of the swing.
 constexpr double kArmAfterSwing = 0.4;
 
@@ -113,10 +111,8 @@ bool Digging::plan_scoop(const Observation& seen) {
   return true;
 }
 
-bool Digging::cut_is_over() const {
-  if (!dig_.is_cut() || cycles() == 0) return false;
-  return (dig_.scoops > 0 && cycles() >= dig_.scoops) || m.cleaned < kPoor * m.full_mass;
-}
+// After each scoop of a job the machine looks for the best cut and place of the spoil again.
+bool Digging::cut_is_over() const { return dig_.is_cut() && cycles() > 0; }
 
 double Digging::lacking(const Observation& seen) const {
   if (!dig_.has_load) return std::numeric_limits<double>::infinity();
@@ -338,8 +334,8 @@ bool Digging::end_cycle(const Observation& seen) {
   // After a pause, look again: soil may have slid into the trench, or come to rest there. The cuts
   // of a job are looked at together; but what was dumped last must have landed in the bed.
   const bool rests = !dig_.is_cut() || !dig_.into.empty();
-  // A cut begins no move for the pause: advancing the carry again would take the arm back to the
-  // trench, down through the bed's side.
+  // `m.move` of a cut is still the carry: advancing it again would take the arm back through the
+  // bed's side.
   if (!dig_.is_cut() && !move(seen)) return false;
   if (rests && phase_time() < kRest) return false;
   if (falls_short_of_receiver(seen)) return true;
@@ -463,7 +459,7 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
       break;
     case kSwing:
       if (!swing(seen)) break;
-      if (m.cleaning != 0 || dig_.is_cut()) m.cleaned = seen.payload;
+      if (m.cleaning != 0) m.cleaned = seen.payload;
       learn_gain(seen.payload);
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       if (met_undiggable(seen))
