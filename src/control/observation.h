@@ -66,6 +66,10 @@ struct Observation {
   /// Function that returns the first bed of the machine of this name, or nothing if there is none;
   /// empty if it is unknown. A call costs a pass over the particles.
   std::function<std::optional<BedView>(const std::string&)> bed_of;
+  /// Function that returns the centre of mass (x, y) of the soil in the first bed of the machine of
+  /// this name, in W [m], or nothing without a bed or soil in it; empty if it is unknown. A call
+  /// costs a pass over the particles.
+  std::function<std::optional<Vec2>(const std::string&)> load_centre_of;
   /// Function that returns true if the hitch of this name is closed; empty if that is unknown.
   std::function<bool(const std::string&)> is_hitched;
   /// Function that returns true if another machine is coupled to this one; empty if that is

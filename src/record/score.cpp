@@ -143,6 +143,8 @@ std::optional<LoadScore> load_score(const std::vector<session::ProgramReport>& p
           out->count += static_cast<int>(one.value);
         } else if (out && one.name == "load_error") {
           out->error = std::max(out->error, one.value);
+        } else if (out && one.name == "load_offset_m") {
+          out->offset = std::max(out->offset, one.value);
         } else if (out && one.name == "most_passes") {
           out->passes = std::max(out->passes, static_cast<int>(one.value));
         } else if (out && one.name == "spilt_kg") {

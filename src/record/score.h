@@ -95,6 +95,8 @@ struct LoadScore {
   int count = 0;
   /// Largest difference of a load from the wanted one, relative to it [-].
   double error = 0;
+  /// Largest distance of a load's centre of mass from the middle of its bed, in plan [m].
+  double offset = 0;
   /// Most passes of a load.
   int passes = 0;
   /// Mass that left the bucket over the beds and fell beside them [kg].

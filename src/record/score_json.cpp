@@ -87,6 +87,7 @@ json score_json(const Score& score, const scene::Scene& scene) {
   if (score.loads)
     out["loads"] = {{"count", score.loads->count},
                     {"load_error", score.loads->error},
+                    {"load_offset_m", score.loads->offset},
                     {"most_passes", score.loads->passes},
                     {"spilt_kg", score.loads->spilt}};
   if (score.shape) {

@@ -13,6 +13,7 @@
 #include "session/bed_box.h"
 #include "session/uncontrolled_machine.h"
 #include "sim/occupied_areas.h"
+#include "sim/read_particles.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::session {
@@ -52,6 +53,34 @@ std::optional<control::BedView> bed_of(const sim::World& world, const std::strin
     out.speed = link.velocity().norm();
     out.load = load_of(world, name);
     return out;
+  }
+  return std::nullopt;
+}
+
+/// Height above the rim to which a heap in a bed may reach [m].
+constexpr double kHeapedTo = 1.5;
+
+/// Returns the centre of mass of the soil in the first bed of the machine of this name, in W [m];
+/// nothing without a bed or soil in it.
+std::optional<Vec2> load_centre_of(const sim::World& world, const std::string& name) {
+  for (const sim::ToolHandle& tool : world.machines().tools()) {
+    const sim::MachineHandle machine = world.machines().at(tool.machine());
+    if (!tool.is_bed() || machine.name() != name) continue;
+    const scene::Bed& bed = machine.description().beds.front();
+    Eigen::AlignedBox3d box = bed_box(machine.description(), bed, Pose::Identity());
+    box.max().z() += kHeapedTo;
+    const Pose X_LW = machine.link(bed.link).pose().inverse();
+    const scene::ParticleTable table = sim::read_particles(world);
+    double mass = 0;
+    Vec2 sum = Vec2::Zero();
+    for (std::size_t i = 0; i < table.count(); ++i) {
+      const Vec3 p_W(table.position[3 * i], table.position[3 * i + 1], table.position[3 * i + 2]);
+      if (!box.contains(Vec3(X_LW * p_W))) continue;
+      mass += table.mass[i];
+      sum += table.mass[i] * p_W.head<2>();
+    }
+    if (mass <= 0) return std::nullopt;
+    return Vec2(sum / mass);
   }
   return std::nullopt;
 }
@@ -109,6 +138,7 @@ void OperatedMachine::connect_gauges() {
   const sim::World& world = world_;
   seen_.load_of = [&world](const std::string& name) { return load_of(world, name); };
   seen_.bed_of = [&world](const std::string& name) { return bed_of(world, name); };
+  seen_.load_centre_of = [&world](const std::string& name) { return load_centre_of(world, name); };
   seen_.is_hitched = [&world](const std::string& name) {
     const std::vector<scene::Hitch>& hitches = world.description().hitches;
     for (std::size_t h = 0; h < hitches.size(); ++h)

@@ -58,6 +58,8 @@ class DigRig {
   double poured = 0;  ///< [kg]
   /// The bed that the operator sees of a truck of any name, except for its load; nothing: no truck.
   std::optional<BedView> bed;
+  /// Centre of the soil in that bed in W (x, y), if the operator can see it.
+  std::optional<Vec2> load_centre;
   /// Soil in the mouth of the bucket while it is lowered, counted as load [kg].
   double in_mouth = 0;
   /// Largest angle of the line from pin to tip at the start of a curl [rad].

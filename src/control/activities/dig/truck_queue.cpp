@@ -40,7 +40,11 @@ bool TruckQueue::reaches_bed(const Observation& seen, const ArmKinematics& arm) 
          reaches(seen, arm, middle_ - spread(), height_);
 }
 
-void TruckQueue::release(double load) {
+void TruckQueue::release(const Observation& seen, double load) {
+  const std::optional<BedView> bed = seen.bed_of ? seen.bed_of(name()) : std::nullopt;
+  const std::optional<Vec2> centre =
+      seen.load_centre_of ? seen.load_centre_of(name()) : std::nullopt;
+  if (bed && centre) offset_ = std::max(offset_, (*centre - bed->middle).norm());
   loaded_.push_back(load - before_);
   most_passes_ = std::max(most_passes_, passes_);
   passes_ = 0;
@@ -67,7 +71,7 @@ bool TruckQueue::look(const Observation& seen, const OperatorContext& place, dou
       place.warn("goes on without '" + name() + "', which has " + number_text(load, "kg") + " of " +
                  number_text(load_, "kg"));
     error_ = std::max(error_, std::abs(load / load_ - 1));
-    release(load);
+    release(seen, load);
   }
   const auto n = static_cast<std::int64_t>(names_.size());
   for (std::int64_t k = 1; k <= n; ++k) {
@@ -89,7 +93,7 @@ bool TruckQueue::look(const Observation& seen, const OperatorContext& place, dou
 }
 
 void TruckQueue::end(const Observation& seen) {
-  if (chosen_ >= 0 && seen.load_of) release(seen.load_of(name()));
+  if (chosen_ >= 0 && seen.load_of) release(seen, seen.load_of(name()));
 }
 
 bool TruckQueue::is_full(const Observation& seen) const {
@@ -115,6 +119,7 @@ std::vector<Measurement> TruckQueue::account(const Observation& seen) const {
   std::vector<Measurement> out = {{"loads", static_cast<double>(loads())},
                                   {"loaded_kg", sum},
                                   {"load_error", error_},
+                                  {"load_offset_m", offset_},
                                   {"most_passes", static_cast<double>(most_passes_)},
                                   {"spilt_kg", dumped_ - sum}};
   for (std::size_t i = 0; i < loaded_.size(); ++i)
@@ -136,6 +141,7 @@ void TruckQueue::visit(Archive& a) {
   a("before", before_);
   a("loaded", loaded_);
   a("error", error_);
+  a("offset", offset_);
   a("dumped", dumped_);
   a("passes", passes_);
   a("most_passes", most_passes_);

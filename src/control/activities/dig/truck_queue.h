@@ -49,7 +49,8 @@ class TruckQueue {
   /// Counts a pass into the chosen machine, of which the bucket held `mass` [kg].
   void count_pass(double mass);
   /// Returns the number of loads, their masses and their sum; the largest difference of a load from
-  /// the wanted one, relative to it; the most passes of a load; and the mass that fell beside.
+  /// the wanted one, relative to it; the largest distance of a load's centre from the middle of its
+  /// bed; the most passes of a load; and the mass that fell beside.
   std::vector<Measurement> account(const Observation& seen) const;
 
   /// Saves or loads the choice and the loads.
@@ -59,7 +60,7 @@ class TruckQueue {
   /// Returns true if the bucket can be opened over both ends of the line along the bed.
   bool reaches_bed(const Observation& seen, const ArmKinematics& arm) const;
   /// Ends the choice of the present machine, whose beds hold `load` [kg].
-  void release(double load);
+  void release(const Observation& seen, double load);
 
   const std::vector<std::string>& names_;
   const double load_;
@@ -70,6 +71,7 @@ class TruckQueue {
   double before_ = 0;           ///< load of the chosen machine when it was chosen [kg]
   std::vector<double> loaded_;  ///< mass that each machine was given [kg]
   double error_ = 0;            ///< largest |load / wanted load - 1| of machines that left [-]
+  double offset_ = 0;           ///< largest distance of a load's centre from its bed's middle [m]
   double dumped_ = 0;           ///< mass that the bucket held over beds, in all [kg]
   std::int64_t passes_ = 0, most_passes_ = 0;  ///< of the present load, and of any
 };
