@@ -63,18 +63,40 @@ TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
     set_position(static_cast<int>(j), machine.joints[j].initial);
 }
 
-// Orders the joints outward, checks that they form a tree, and passes them to Bullet.
-void TreeBody::build(const scene::Machine& machine) {
-  const std::size_t links = machine.links.size();
-  // >-2: not in the tree yet, -1: Bullet's base
-  bullet_of_link_.assign(links, -2);
+// In the order of the joints in the file, as far as their parents are in the tree.
+std::vector<int> TreeBody::order_outward(const scene::Machine& machine) {
+  // -2: not in the tree yet, -1: Bullet's base
+  bullet_of_link_.assign(machine.links.size(), -2);
   bullet_of_joint_.assign(machine.joints.size(), -1);
   bullet_of_link_[0] = -1;
+  std::vector<int> order;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+      const scene::Joint& joint = machine.joints[j];
+      if (joint.parent < 0) continue;
+      if (bullet_of_link_[index(joint.parent)] == -2 || bullet_of_link_[index(joint.child)] != -2)
+        continue;
+      bullet_of_link_[index(joint.child)] = bullet_of_joint_[j] = static_cast<int>(order.size());
+      order.push_back(static_cast<int>(j));
+      grown = true;
+    }
+  }
+  for (std::size_t i = 0; i < machine.links.size(); ++i)
+    if (bullet_of_link_[i] == -2)
+      refuse("link[" + machine.links[i].name + "]", "", "no joint connects this link to the base");
+  return order;
+}
+
+void TreeBody::build(const scene::Machine& machine) {
+  const std::size_t links = machine.links.size();
   X_LI_.resize(links);
   mass_.resize(links);
   inertia_.resize(links);
   // A fixed joint of the base to the world means the same as the flag.
   bool fixed = machine.fixed_base;
+  for (const scene::Joint& joint : machine.joints)
+    fixed = fixed || (joint.parent < 0 && joint.type == JointType::kFixed && joint.child == 0);
   std::vector<Vec3> moments(links);
   for (std::size_t i = 0; i < links; ++i) {
     const scene::Link& link = machine.links[i];
@@ -85,27 +107,7 @@ void TreeBody::build(const scene::Machine& machine) {
       refuse("link[" + link.name + "]", std::to_string(link.mass),
              "a moving link needs positive mass and inertia");
   }
-  // Outward from the base, in the order of the joints.
-  std::vector<int> order;
-  for (bool grown = true; grown;) {
-    grown = false;
-    for (std::size_t j = 0; j < machine.joints.size(); ++j) {
-      const scene::Joint& joint = machine.joints[j];
-      if (joint.parent < 0) {
-        fixed = fixed || (joint.type == JointType::kFixed && joint.child == 0);
-        continue;
-      }
-      if (bullet_of_link_[index(joint.parent)] == -2 || bullet_of_link_[index(joint.child)] != -2)
-        continue;
-      bullet_of_link_[index(joint.child)] = bullet_of_joint_[j] = static_cast<int>(order.size());
-      order.push_back(static_cast<int>(j));
-      grown = true;
-    }
-  }
-  for (std::size_t i = 0; i < links; ++i)
-    if (bullet_of_link_[i] == -2)
-      refuse("link[" + machine.links[i].name + "]", "", "no joint connects this link to the base");
-
+  const std::vector<int> order = order_outward(machine);
   body_ = std::make_unique<btMultiBody>(static_cast<int>(order.size()), mass_[0], to_bt(moments[0]),
                                         fixed, false);
   link_of_bullet_.assign(order.size(), 0);

@@ -143,6 +143,9 @@ class TreeBody {
   };
   /// Converts a non-negative index to std::size_t.
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  /// Returns the joints from the base outward, and numbers the links and joints of the tree in this
+  /// order. Refuses links that no joint connects to the base.
+  std::vector<int> order_outward(const scene::Machine& machine);
   /// Builds Bullet's tree outward from the base, in the order of the joints.
   void build(const scene::Machine& machine);
   /// Adds a joint and its child link to Bullet's tree as Bullet's link `bullet`.
