@@ -35,26 +35,38 @@ double load_of(const sim::World& world, const std::string& name) {
   return sum;
 }
 
+/// Bounding box of a bed in the frame of its link L [m], and that link.
+struct PlacedBed {
+  Eigen::AlignedBox3d box_L;
+  sim::LinkHandle link;
+};
+
 /// Returns the first bed of the machine of this name; nothing if it has none or is unknown.
-std::optional<control::BedView> bed_of(const sim::World& world, const std::string& name) {
+std::optional<PlacedBed> first_bed(const sim::World& world, const std::string& name) {
   for (const sim::ToolHandle& tool : world.machines().tools()) {
     const sim::MachineHandle machine = world.machines().at(tool.machine());
     if (!tool.is_bed() || machine.name() != name) continue;
     const scene::Bed& bed = machine.description().beds.front();
-    const Eigen::AlignedBox3d box = bed_box(machine.description(), bed, Pose::Identity());
-    const sim::LinkHandle link = machine.link(bed.link);
-    const Pose X_WL = link.pose();
-    const Vec3 half = 0.5 * box.sizes();
-    const Vec3 along = half.x() >= half.y() ? Vec3(half.x(), 0, 0) : Vec3(0, half.y(), 0);
-    control::BedView out;
-    out.middle = (X_WL * box.center()).head<2>();
-    out.to_end = (X_WL.linear() * along).head<2>();
-    out.rim = (X_WL * box.center()).z() + (X_WL.linear().row(2).cwiseAbs() * half).value();
-    out.speed = link.velocity().norm();
-    out.load = load_of(world, name);
-    return out;
+    return PlacedBed{bed_box(machine.description(), bed, Pose::Identity()), machine.link(bed.link)};
   }
   return std::nullopt;
+}
+
+/// Returns the first bed of the machine of this name as the operator of another one sees it;
+/// nothing if it has none or is unknown.
+std::optional<control::BedView> bed_of(const sim::World& world, const std::string& name) {
+  const std::optional<PlacedBed> bed = first_bed(world, name);
+  if (!bed) return std::nullopt;
+  const Pose X_WL = bed->link.pose();
+  const Vec3 half = 0.5 * bed->box_L.sizes(), middle = X_WL * bed->box_L.center();
+  const Vec3 along = half.x() >= half.y() ? Vec3(half.x(), 0, 0) : Vec3(0, half.y(), 0);
+  control::BedView out;
+  out.middle = middle.head<2>();
+  out.to_end = (X_WL.linear() * along).head<2>();
+  out.rim = middle.z() + (X_WL.linear().row(2).cwiseAbs() * half).value();
+  out.speed = bed->link.velocity().norm();
+  out.load = load_of(world, name);
+  return out;
 }
 
 /// Height above the rim to which a heap in a bed may reach [m].
@@ -63,26 +75,21 @@ constexpr double kHeapedTo = 1.5;
 /// Returns the centre of mass of the soil in the first bed of the machine of this name, in W [m];
 /// nothing without a bed or soil in it.
 std::optional<Vec2> load_centre_of(const sim::World& world, const std::string& name) {
-  for (const sim::ToolHandle& tool : world.machines().tools()) {
-    const sim::MachineHandle machine = world.machines().at(tool.machine());
-    if (!tool.is_bed() || machine.name() != name) continue;
-    const scene::Bed& bed = machine.description().beds.front();
-    Eigen::AlignedBox3d box = bed_box(machine.description(), bed, Pose::Identity());
-    box.max().z() += kHeapedTo;
-    const Pose X_LW = machine.link(bed.link).pose().inverse();
-    const scene::ParticleTable table = sim::read_particles(world);
-    double mass = 0;
-    Vec2 sum = Vec2::Zero();
-    for (std::size_t i = 0; i < table.count(); ++i) {
-      const Vec3 p_W(table.position[3 * i], table.position[3 * i + 1], table.position[3 * i + 2]);
-      if (!box.contains(Vec3(X_LW * p_W))) continue;
-      mass += table.mass[i];
-      sum += table.mass[i] * p_W.head<2>();
-    }
-    if (mass <= 0) return std::nullopt;
-    return Vec2(sum / mass);
+  std::optional<PlacedBed> bed = first_bed(world, name);
+  if (!bed) return std::nullopt;
+  bed->box_L.max().z() += kHeapedTo;
+  const Pose X_LW = bed->link.pose().inverse();
+  const scene::ParticleTable table = sim::read_particles(world);
+  double mass = 0;
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t i = 0; i < table.count(); ++i) {
+    const Vec3 p_W(table.position[3 * i], table.position[3 * i + 1], table.position[3 * i + 2]);
+    if (!bed->box_L.contains(Vec3(X_LW * p_W))) continue;
+    mass += table.mass[i];
+    sum += table.mass[i] * p_W.head<2>();
   }
-  return std::nullopt;
+  if (mass <= 0) return std::nullopt;
+  return Vec2(sum / mass);
 }
 
 }  // namespace

@@ -84,11 +84,12 @@ Observation DigRig::look() const {
   seen.ground = &ground;
   if (fills_bed) seen.load_of = [this](const std::string&) { return poured; };
   if (fills_bed) seen.load_centre_of = [this](const std::string&) { return load_centre; };
-  seen.bed_of = [this](const std::string&) {
-    std::optional<BedView> out = bed;
-    if (out) out->load = poured;
-    return out;
-  };
+  if (fills_bed)
+    seen.bed_of = [this](const std::string&) {
+      std::optional<BedView> out = bed;
+      if (out) out->load = poured;
+      return out;
+    };
   seen.payload = payload_ + (op.phase() == "penetrate" || op.phase() == "drag" ? in_mouth : 0);
   return seen;
 }
