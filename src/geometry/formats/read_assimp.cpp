@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "geometry/formats/mesh_builder.h"
+#include "geometry/formats/read_in_child.h"
 
 namespace navvy::geometry {
 namespace {
@@ -142,13 +143,7 @@ void add_node(const aiScene& scene, const aiNode& node, const Matrix& above, boo
     add_node(scene, *node.mChildren[i], X, colored, depth + 1, builder);
 }
 
-}  // namespace
-
-TriangleMesh read_assimp(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const std::string bytes = mesh_bytes(path);
-  check_whole(path, ending, bytes);
+TriangleMesh import(const std::string& path, const std::string& ending) {
   Assimp::Importer importer;
   // The importer owns the handler.
   importer.SetIOHandler(new FilesBeside(path));
@@ -168,6 +163,16 @@ TriangleMesh read_assimp(const std::string& path) {
   // STL has no materials; the library makes one up.
   add_node(*scene, *scene->mRootNode, turn, ending != ".stl", 0, builder);
   return builder.finish();
+}
+
+}  // namespace
+
+TriangleMesh read_assimp(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  check_whole(path, ending, mesh_bytes(path));
+  // Release 5.2 crashes on some Collada files whose arrays have no `count`.
+  return read_in_child(path, "Assimp", [&] { return import(path, ending); });
 }
 
 }  // namespace navvy::geometry

@@ -5,14 +5,19 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <functional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "core/error.h"
 #include "folder.h"
+#include "geometry/formats/mesh_builder.h"
+#include "geometry/formats/read_in_child.h"
 #include "geometry/topology.h"
 
 namespace navvy::geometry {
@@ -208,6 +213,49 @@ TEST_F(ReadMesh, BrokenFilesAreRefusedWithLineAndRemedy) {
       refusal("bad.iv", "#Inventor V2.1 ascii\nSeparator {\n Cube { width x }\n}\n");
   EXPECT_NE(bad.find("bad.iv:3: error"), std::string::npos) << bad;
   EXPECT_NE(refusal("text.wrl", "no scene at all\n"), "");
+}
+
+TEST_F(ReadMesh, ACrashOfTheLibraryIsAnErrorOfTheFile) {
+  std::string dae = collada("Z_UP");
+  // Found by fuzzing: release 5.2 of Assimp crashes on it.
+  dae.replace(dae.find("count=\"9\""), 5, "uoctn");
+  const std::string crash = refusal("a.dae", dae);
+  EXPECT_NE(crash.find("a.dae: error"), std::string::npos) << crash;
+  EXPECT_NE(crash.find("export it as OBJ"), std::string::npos) << crash;
+}
+
+TEST(ReadInChild, PassesOnMeshesFaultsAndFailuresAndOutlivesACrash) {
+  TriangleMesh mesh;
+  mesh.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.materials = {{"red", {1, 0, 0}, {0, 0, 1}, 3, 0.5f}};
+  mesh.material_of = {0};
+  const TriangleMesh same = read_in_child("m", "L", [&] { return mesh; });
+  EXPECT_EQ(same.vertices, mesh.vertices);
+  EXPECT_EQ(same.triangles, mesh.triangles);
+  EXPECT_EQ(same.material_of, mesh.material_of);
+  ASSERT_EQ(same.materials.size(), 1u);
+  EXPECT_EQ(same.materials[0].name, "red");
+  EXPECT_EQ(same.materials[0].specular, mesh.materials[0].specular);
+  EXPECT_EQ(same.materials[0].opacity, 0.5f);
+  const auto failure = [](const std::function<TriangleMesh()>& read) {
+    try {
+      read_in_child("m", "L", read);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(failure([]() -> TriangleMesh { refuse_mesh("m", 3, "x", "rule", "remedy"); }),
+            "m:3: error: 'x': rule (remedy)");
+  EXPECT_EQ(failure([]() -> TriangleMesh { throw std::runtime_error("reason"); }),
+            "m: error: L failed: reason (export the mesh again)");
+  EXPECT_EQ(
+      failure([]() -> TriangleMesh { std::abort(); }),
+      "m: error: L, which reads it, has crashed (Aborted) (the file is damaged: copy or export "
+      "it again, or export it as OBJ)");
+  mesh.triangles[0][2] = 3;
+  EXPECT_NE(failure([&] { return mesh; }), "");
 }
 
 TEST_F(ReadMesh, FilesWithoutTrianglesAreRefusedAsSuchInEveryFormat) {
