@@ -83,9 +83,9 @@ float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
 }
 
 // A plane has no roughness at any slope, because the residuals count from the fitted plane.
-float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
+PlaneFit plane_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   const float centre = patch.at(ix, iy);
-  if (!known(centre)) return kUnknown;
+  if (!known(centre)) return {};
   // Moments about the column itself, where numbers are small.
   double n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0, sxz = 0, syz = 0, szz = 0;
   for (int y = -reach; y <= reach; ++y)
@@ -100,20 +100,21 @@ float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   sxx -= sx * sx / n, sxy -= sx * sy / n, syy -= sy * sy / n;
   sxz -= sx * sz / n, syz -= sy * sz / n, szz -= sz * sz / n;
   const double det = sxx * syy - sxy * sxy;
-  if (!(det > 1e-9 * sxx * syy)) return kUnknown;
+  if (!(det > 1e-9 * sxx * syy)) return {};
   // Fewer than three known columns, or all in one line, determine no plane: refused above.
   const double a = (sxz * syy - syz * sxy) / det, b = (syz * sxx - sxz * sxy) / det;
-  return static_cast<float>(std::sqrt(std::max(szz - a * sxz - b * syz, 0.0) / n));
+  return {static_cast<float>(std::atan(std::sqrt(a * a + b * b) / patch.cell)),
+          static_cast<float>(std::sqrt(std::max(szz - a * sxz - b * syz, 0.0) / n))};
 }
 
 // The mean ranks ground that is drivable; a single limit that is reached makes it undrivable.
-float traversability(float slope, float step_height, float roughness,
+float traversability(float inclination, float step_height, float roughness,
                      const TraversabilityLimits& limits) {
   // Added in this order always. A good slope does not make up for a step that is too high.
   double sum = 0;
   bool bad = false;
   for (const auto& [value, limit] :
-       {std::pair{slope, limits.slope}, std::pair{step_height, limits.step_height},
+       {std::pair{inclination, limits.slope}, std::pair{step_height, limits.step_height},
         std::pair{roughness, limits.roughness}}) {
     if (!known(value)) return kUnknown;
     const double share = static_cast<double>(value) / limit;
@@ -134,9 +135,9 @@ float Surround::step_height() {
   return *step_height_;
 }
 
-float Surround::roughness() {
-  if (!roughness_) roughness_ = roughness_at(patch_, ix_, iy_, reach_);
-  return *roughness_;
+const PlaneFit& Surround::plane() {
+  if (!plane_) plane_ = plane_at(patch_, ix_, iy_, reach_);
+  return *plane_;
 }
 
 float Surround::normal(int axis) const {

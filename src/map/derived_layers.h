@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,8 @@ namespace navvy::map {
 /// Limits of the ground that a machine can drive on. Ground that reaches a limit has traversability
 /// 0.
 struct TraversabilityLimits {
-  /// Slope at which the ground stops being drivable [rad]. The default is typical but unverified
-  /// (U).
+  /// Inclination of the plane through the window at which the ground stops being drivable [rad].
+  /// The default is typical but unverified (U).
   double slope = radians(30);
   /// Step height at which the ground stops being drivable [m]. The default, about a third of the
   /// diameter of an excavator's wheel, is typical but unverified (U).
@@ -24,8 +25,8 @@ struct TraversabilityLimits {
   /// Rms roughness at which the ground stops being drivable [m]. The default is typical but
   /// unverified (U).
   double roughness = 0.10;
-  /// Half the side of the square window in which step height and roughness are computed [m]. The
-  /// window extends at least one column to each side.
+  /// Half the side of the square window in which plane, step height and roughness are computed [m].
+  /// The window extends at least one column to each side.
   double window = 0.20;
   /// Checks the limits for columns with edge `cell` [m]. @throws InputError naming a value that is
   /// not finite and positive, or a window of more than 64 columns to each side.
@@ -67,14 +68,22 @@ float slope_at(const ElevationPatch& patch, int ix, int iy);
 /// columns of column (ix, iy) [m]; NaN if the elevation of (ix, iy) is unknown. The column must lie
 /// at least `reach` columns inside the patch.
 float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach);
-/// Returns the rms distance, along z, of the surface from its least-squares plane, within `reach`
-/// columns of column (ix, iy) [m]. NaN if the elevation of (ix, iy) is unknown, or if the known
-/// columns do not determine a plane. The column must lie at least `reach` columns inside the patch.
-float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach);
-/// Returns the traversability of ground with the given slope [rad], step height [m] and roughness
-/// [m]: the mean of 1 - value / limit of the three values. 0 if any value reaches its limit, NaN if
-/// any value is NaN.
-float traversability(float slope, float step_height, float roughness,
+/// Least-squares plane of the surface around a column; both values are NaN if there is none.
+struct PlaneFit {
+  /// Angle of the plane from the horizontal [rad].
+  float inclination = std::numeric_limits<float>::quiet_NaN();
+  /// Rms distance of the surface from the plane, along z [m].
+  float roughness = std::numeric_limits<float>::quiet_NaN();
+};
+/// Returns the plane through the columns within `reach` columns of column (ix, iy). There is none
+/// if the elevation of (ix, iy) is unknown, or if the known columns do not determine a plane. The
+/// column must lie at least `reach` columns inside the patch.
+PlaneFit plane_at(const ElevationPatch& patch, int ix, int iy, int reach);
+/// Returns the traversability of ground with the given inclination [rad], step height [m] and
+/// roughness [m]: the mean of 1 - value / limit of the three values. 0 if any value reaches its
+/// limit, NaN if any value is NaN. The inclination is that of the plane, not the slope of a column:
+/// the sides of a rut are steep, but lower than a step that stops a machine.
+float traversability(float inclination, float step_height, float roughness,
                      const TraversabilityLimits& limits);
 
 /// Computes the layers of one column that depend on nearby elevations. Values that several layers
@@ -95,9 +104,8 @@ class Surround {
   /// Returns the largest height difference between neighbouring columns within the window around
   /// the column [m]; NaN if the column's elevation is unknown.
   float step_height();
-  /// Returns the rms distance of the surface from its least-squares plane within the window around
-  /// the column [m]; NaN if it is unknown.
-  float roughness();
+  /// Returns the least-squares plane of the surface within the window around the column.
+  const PlaneFit& plane();
   /// Returns true if a body higher than the limit of steps stands on the column.
   bool blocked() const {
     return !patch_.occupied.empty() &&
@@ -113,9 +121,10 @@ class Surround {
   const TraversabilityLimits& limits_;
   /// Indices of the column, and window size in columns to each side.
   int ix_, iy_, reach_;
-  /// Slope [rad], step height [m] and roughness [m] of the column; no value until they are first
+  /// Slope [rad] and step height [m] of the column, and its plane; no value until they are first
   /// requested.
-  std::optional<float> slope_, step_height_, roughness_;
+  std::optional<float> slope_, step_height_;
+  std::optional<PlaneFit> plane_;
 };
 
 /// Returns `rect` extended by `by` columns on each side. The result may extend beyond the site.

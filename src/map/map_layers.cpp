@@ -79,7 +79,7 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .type = LayerType::kQuantity,
        .needs = LayerNeeds::kHeights,
        .from = {kElevation},
-       .of_surround = [](Surround& s) { return s.roughness(); }},
+       .of_surround = [](Surround& s) { return s.plane().roughness; }},
       {.layer = kTraversability,
        .name = "traversability",
        .unit = "-",
@@ -90,8 +90,8 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .from = {kSlope, kStepHeight, kRoughness, kElevation, kOccupied},
        .of_surround =
            [](Surround& s) {
-             const float ground =
-                 traversability(s.slope(), s.step_height(), s.roughness(), s.limits());
+             const float ground = traversability(s.plane().inclination, s.step_height(),
+                                                 s.plane().roughness, s.limits());
              // The comparison is false for NaN, so a body does not turn unknown ground into known
              // ground.
              return s.blocked() && ground > 0 ? 0.0f : ground;

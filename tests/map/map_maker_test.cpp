@@ -219,6 +219,23 @@ TEST(MapMaker, ReportsAWallAsUndrivable) {
   EXPECT_NEAR(map.at(MapLayer::kSlope, 32, 40), std::atan(wall / 0.2), 1e-6);
 }
 
+// Each side of the rut is a step of 0.12 m, far below the limit of 0.3 m, but with a slope of 31
+// deg between two columns. A bank with this slope is not drivable.
+TEST(MapMaker, ReportsARutAsDrivableAndABankOfTheSameSlopeAsNot) {
+  const double deep = 0.12;
+  const TerrainMap rut =
+      map_of(setup(), [&](double x, double) { return x > -0.5 && x < 0.5 ? -deep : 0; });
+  const TerrainMap bank =
+      map_of(setup(), [&](double x, double) { return x < 0 ? 0 : deep / 0.2 * x; });
+  float steepest = 0;
+  for (int ix = 20; ix < 46; ++ix) {
+    steepest = std::max(steepest, rut.at(MapLayer::kSlope, ix, 40));
+    EXPECT_GT(rut.at(MapLayer::kTraversability, ix, 40), 0) << ix;
+  }
+  EXPECT_GT(steepest, radians(30));
+  EXPECT_EQ(bank.at(MapLayer::kTraversability, 40, 40), 0);
+}
+
 TEST(MapMaker, ReportsLayersOfTheSoilPresent) {
   Ground ground{setup()};
   std::vector<heightfield::SoilLayer> taken;
@@ -286,11 +303,13 @@ TEST(Derived, AreUnknownWhereElevationIsAndUseTheKnownNeighboursElsewhere) {
   patch.z[static_cast<std::size_t>(9 * 4 + 4)] = kUnknown;
   EXPECT_TRUE(std::isnan(slope_at(patch, 4, 4)));
   EXPECT_TRUE(std::isnan(step_height_at(patch, 4, 4, 2)));
-  EXPECT_TRUE(std::isnan(roughness_at(patch, 4, 4, 2)));
+  EXPECT_TRUE(std::isnan(plane_at(patch, 4, 4, 2).inclination));
+  EXPECT_TRUE(std::isnan(plane_at(patch, 4, 4, 2).roughness));
   for (const int ix : {3, 5}) {
     EXPECT_FLOAT_EQ(slope_at(patch, ix, 4), std::atan(0.5f));
     EXPECT_FLOAT_EQ(step_height_at(patch, ix, 4, 2), 0.25f);
-    EXPECT_NEAR(roughness_at(patch, ix, 4, 2), 0, 1e-7);
+    EXPECT_NEAR(plane_at(patch, ix, 4, 2).inclination, std::atan(0.5), 1e-6);
+    EXPECT_NEAR(plane_at(patch, ix, 4, 2).roughness, 0, 1e-7);
   }
   EXPECT_TRUE(std::isnan(traversability(kUnknown, 0, 0, {})));
   EXPECT_EQ(traversability(0, 0, 0, {}), 1);
