@@ -115,15 +115,22 @@ double ArmMove::duration() const {
                    open_at_ < 0 ? 0 : open_at_ + open_time_});
 }
 
-bool ArmMove::advance(OperatorContext& place, const Observation& seen, double since,
-                      const char* phase) {
+Axes ArmMove::at(double since) const {
   const double turned = swing_at_ < 0 ? 0 : (since - swing_at_) / swing_time_;
   const double swing = swing_ramp_ > 0 ? ramp(turned, swing_ramp_) : smooth(turned),
                other = smooth((since - arm_delay_) / arm_time_);
+  Axes q;
+  for (std::size_t i = 0; i < 4; ++i)
+    q[i] = from_[i] + (i == 0 ? swing : other) * (to_[i] - from_[i]);
+  return q;
+}
+
+bool ArmMove::advance(OperatorContext& place, const Observation& seen, double since,
+                      const char* phase) {
+  place.handover.q = at(since);
   // Remaining distance to the target, over all four joints alike.
   double error = 0, speed = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    place.handover.q[i] = from_[i] + (i == 0 ? swing : other) * (to_[i] - from_[i]);
     if (i == 3 && open_at_ >= 0)
       place.handover.q[i] += open_by_ * ramp((since - open_at_) / open_time_, kOpenRamp);
     const vehicle::JointState& joint = seen.joints[place.joint(i)];

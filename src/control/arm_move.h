@@ -46,6 +46,11 @@ class ArmMove {
   /// move is over: the arm has arrived or come to rest after the move's duration, or it is more
   /// than 2 s late. In the last case a warning with the phase name `phase` is logged.
   bool advance(OperatorContext& place, const Observation& seen, double since, const char* phase);
+  /// Returns the angles of the move `since` [s] after its start, without the bucket's opening
+  /// [rad].
+  Axes at(double since) const;
+  /// Returns the time after the start of the move at which boom, stick and bucket start [s].
+  double arm_delay() const { return arm_delay_; }
   /// Returns the duration of the commanded move [s]. The machine may arrive later.
   double duration() const;
   /// Returns the durations of the swing, and of the move of boom, stick and bucket [s].

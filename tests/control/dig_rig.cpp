@@ -83,7 +83,10 @@ Observation DigRig::look() const {
   seen.v_WB = engine->link(0, 0).v_WL;
   seen.ground = &ground;
   if (fills_bed) seen.load_of = [this](const std::string&) { return poured; };
-  if (fills_bed) seen.load_centre_of = [this](const std::string&) { return load_centre; };
+  if (fills_bed)
+    seen.load_centre_of = [this](const std::string&) {
+      return lands_off && poured > 0 ? std::optional<Vec2>(moment_ / poured) : load_centre;
+    };
   if (fills_bed)
     seen.bed_of = [this](const std::string&) {
       std::optional<BedView> out = bed;
@@ -211,9 +214,11 @@ void DigRig::pour(const Pose& X_WB) {
   if (payload_ <= 0 || op.phase() != "dump" || tip_angle(X_WB) < -radians(110)) return;
   const double mass = std::min(payload_, kPourRate * kStep);
   payload_ -= mass;
-  poured += mass;
-  if (fills_bed) return;
   const Vec3 tip = X_WB * machine_.buckets[0].p_tip;
+  if (poured == 0) moment_.setZero();
+  poured += mass;
+  if (lands_off) moment_ += mass * (tip.head<2>() + *lands_off);
+  if (fills_bed) return;
   drop(tip.head<2>(), 0.7, mass);
 }
 

@@ -60,6 +60,9 @@ class DigRig {
   std::optional<BedView> bed;
   /// Centre of the soil in that bed in W (x, y), if the operator can see it.
   std::optional<Vec2> load_centre;
+  /// How far from the bucket's tip what it pours lands in the bed, in W [m]; with it the operator
+  /// sees the centre of what has been poured.
+  std::optional<Vec2> lands_off;
   /// Soil in the mouth of the bucket while it is lowered, counted as load [kg].
   double in_mouth = 0;
   /// Largest angle of the line from pin to tip at the start of a curl [rad].
@@ -88,6 +91,7 @@ class DigRig {
   scene::Machine machine_;
   std::vector<double> target_;
   double payload_ = 0;
+  Vec2 moment_ = Vec2::Zero();  ///< mass x place of what has been poured into the bed [kg m]
   double capacity_ = 0;
   bool stalled_ = false;
   bool carrying_ = false;

@@ -3,6 +3,7 @@
 // only.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/activities/dig/fill.h"
@@ -92,6 +93,29 @@ TEST(Dig, FollowsItsLineWhenTheMachineIsTurnedAndOffTheOrigin) {
   const TrenchMeasure measured = measure(rig.ground, dig);
   report(rig, measured);
   expect_good(measured);
+}
+
+TEST(Dig, SwingsBackOverAHeapBetweenTheDumpAndTheTrench) {
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  heightfield::SoilLayer layer;
+  layer.mass = mass_units(1.0 * rig.ground.cell() * rig.ground.cell() * 1600);
+  const auto each = [&](const auto& use) {
+    for (double x = 1.05; x < 3.4; x += rig.ground.cell())
+      for (double y = 1.75; y < 3.2; y += rig.ground.cell()) {
+        const Vec2i at = rig.ground.column_at(x, y);
+        use(at.x(), at.y());
+      }
+  };
+  each([&](int ix, int iy) { rig.ground.put(ix, iy, layer); });
+  const auto least = [&] {
+    double z = 1e9;
+    each([&](int ix, int iy) { z = std::min(z, rig.ground.height(ix, iy)); });
+    return z;
+  };
+  const double before = least();
+  EXPECT_GT(before, 0.8);
+  ASSERT_TRUE(rig.run(400)) << rig.op.phase();
+  EXPECT_EQ(least(), before);
 }
 
 TEST(Dig, CurlsOnlyNearTheDiggingAngle) {

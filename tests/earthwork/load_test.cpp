@@ -156,6 +156,17 @@ TEST(Load, LoadsTwoTrucksByEqualPassesAndWaitsForEach) {
   EXPECT_LE(rig.cycles.size(), 10u);
 }
 
+TEST(Load, CentresALoadThatLandsBesideTheTip) {
+  const LogLines log;
+  DigRig rig = rig_of(load(1), make_pose(-4, 0, 0));
+  heap_up(rig.ground, 1.2);
+  rig.lands_off = Vec2(-0.25, 0.35);
+  run_with_trucks(rig, 1, load(1).dump_at, 600);
+  ASSERT_TRUE(rig.op.done()) << log.text();
+  // Three passes; 0.58 m without a correction.
+  EXPECT_LT(value(rig.op.reports().at(0), "load_offset_m"), 0.4);
+}
+
 TEST(Load, EndsWhenNoTruckComesAndSaysWhereTheyAre) {
   const LogLines log;
   DigRig rig = rig_of(load(1), make_pose(-4, 0, 0));

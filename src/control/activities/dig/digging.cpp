@@ -13,6 +13,7 @@
 #include "control/activities/dig/seen_surface.h"
 #include "control/dig_pose.h"
 #include "control/reach.h"
+#include "control/swing_clearance.h"
 
 namespace navvy::control {
 namespace {
@@ -53,6 +54,7 @@ constexpr double kUndone = 0.15;
 constexpr double kLoaded = 0.03, kMorePass = 0.1;
 // Bounds of the mass of a scoop / the mass that it aims at: a scoop that met rock teaches nothing.
 constexpr double kLeastGain = 0.8, kMostGain = 1.25;
+constexpr double kMostShift = 0.4;  // by which a dump is laid elsewhere to centre a load [m]
 // A pass along the floor that brings less than this share of a load is the last one: one of the
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
@@ -60,8 +62,10 @@ constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFlo
 // Distances nearer and farther at which the bucket may open instead, and their number [m].
 constexpr double kAside = 0.25;
 constexpr int kAsides = 16;
-// During the return swing the arm comes down after this share of the swing.
-constexpr double kArmAfterSwing = 0.4;
+// During the return swing the arm comes down after this share of the swing, or by steps of a share
+// later, until the bucket clears what is below by this much [m].
+constexpr double kArmAfterSwing = 0.4, kArmLater = 0.1;
+constexpr double kOverHeap = 0.15;
 
 }  // namespace
 
@@ -156,6 +160,15 @@ void Digging::go_to_scoop(Phase next, const Observation& seen) {
   const double turn = std::min(swing_acceleration(place_, {to[1], to[2], to[3]}, 0, seen),
                                swing_acceleration(place_, place_.arm_angles(), 0, seen));
   m.move.start(place_, to, seen, {1.0, kArmAfterSwing, turn, false});
+  // A windrow that has grown between the dump and the trench: the arm stays up until it is past.
+  with_surface(seen, [&](const SurfaceView& surface) {
+    const Pose X_WS = m.stance.swing_frame(arm_);
+    const auto is_clear = [&] {
+      return least_clearance(m.move, m.move.arm_delay(), arm_, X_WS, surface) >= kOverHeap;
+    };
+    for (double wait = kArmAfterSwing; wait < 1 && !is_clear(); wait += kArmLater)
+      m.move.start(place_, to, seen, {1.0, std::min(1.0, wait + kArmLater), turn, false});
+  });
   enter(next);
 }
 
@@ -169,7 +182,18 @@ Vec2 Digging::dump_place(const Observation& seen) const {
   if (!dig_.has_load || dig_.spread.isZero()) return dig_.dump_at;
   // Equal passes are laid side by side along the bed: each at the middle of its share.
   const double share = (dig_.load - lacking(seen) + 0.5 * m.wanted) / dig_.load;
-  return dig_.dump_at + std::clamp(2 * share - 1, -1.0, 1.0) * dig_.spread;
+  return dig_.dump_at + std::clamp(2 * share - 1, -1.0, 1.0) * dig_.spread + off_centre(seen);
+}
+
+Vec2 Digging::off_centre(const Observation& seen) const {
+  const double lack = lacking(seen), given = dig_.load - lack;
+  if (given <= 0 || !seen.load_centre_of) return Vec2::Zero();
+  const std::optional<Vec2> centre = seen.load_centre_of(dig_.into);
+  if (!centre) return Vec2::Zero();
+  // Passes up to now, if each had landed in its place, lie about the middle of their share.
+  const Vec2 meant = dig_.dump_at + (given / dig_.load - 1) * dig_.spread;
+  const Vec2 shift = (meant - *centre) * (dig_.load / std::max(lack, 0.1 * dig_.load));
+  return shift * std::min(1.0, kMostShift / std::max(shift.norm(), kMostShift));
 }
 
 ArmAngles Digging::opening_pose(const Observation& seen, const Pose& X_WS, Vec2& place) const {

@@ -163,6 +163,9 @@ class Digging final : public ActivityWith<DiggingMemory> {
   void learn_gain(double payload);
   /// Returns the place (x, y) in W at which the bucket is to open [m].
   Vec2 dump_place(const Observation& seen) const;
+  /// Returns how far from its place a dump into a bed is laid [m], so that later passes balance
+  /// what earlier ones have missed it by.
+  Vec2 off_centre(const Observation& seen) const;
   /// Returns true if the job is to look for another cut.
   bool cut_is_over() const;
   /// Returns the mass that the bed still lacks [kg]; infinity without a stated mass.
