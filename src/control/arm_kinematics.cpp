@@ -168,6 +168,12 @@ BucketPose ArmKinematics::forward(const ArmAngles& q) const {
           pin_height_ + boom_ * std::sin(a) + stick_ * std::sin(b) + bucket_ * std::sin(c), c};
 }
 
+Vec2 ArmKinematics::on_stick(const ArmAngles& q, double along) const {
+  const double a = q[0], b = a + q[1], left = stick_ - along;
+  return {pin_reach_ + boom_ * std::cos(a) + left * std::cos(b),
+          pin_height_ + boom_ * std::sin(a) + left * std::sin(b)};
+}
+
 double ArmKinematics::beyond_tip(double angle, double height) const {
   const Eigen::Rotation2Dd turn(angle);
   double farthest = 0;

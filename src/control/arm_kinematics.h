@@ -39,6 +39,9 @@ class ArmKinematics {
   /// Returns the pose of the bucket at the joint angles `q`, whether or not these are within the
   /// joint limits.
   BucketPose forward(const ArmAngles& q) const;
+  /// Returns a point on the line of the stick, `along` [m] from the bucket's pin towards the elbow:
+  /// its distance from the swing axis and its height above the origin of S [m].
+  Vec2 on_stick(const ArmAngles& q, double along) const;
   /// Computes the joint angles `q` that give the bucket the pose `pose`. Returns false if the pose
   /// is out of reach or violates a joint limit; the contents of `q` are undefined then.
   bool inverse(const BucketPose& pose, ArmAngles& q) const;

@@ -29,6 +29,9 @@ constexpr int kAcross = 5;  // places across a strip at which its soil is looked
 constexpr int kFine = 3;    // directions per strip
 // The sides of the bucket may be so far outside of the pit [m]: a trench is dug one bucket wide.
 constexpr double kOutside = 0.1;
+// Height of the stick's line over soil that it must not touch while the bucket goes down beyond it,
+// and how far from the bucket's pin that is looked at [m].
+constexpr double kUnderStick = 0.3, kAlongStick = 1.5;
 // Keys: layers are so far apart, and directions count from the middle of that.
 constexpr std::int64_t kLayerKeys = 1000;
 
@@ -136,6 +139,20 @@ class Fan {
     return sum / kAcross;
   }
 
+  /// Returns true if the stick stays above the soil while the bucket goes down to `z` [m] at the
+  /// distance `r` [m] in a direction [rad]. Behind the crest of a heap it may not.
+  bool stick_is_clear(double r, double angle, double z) const {
+    control::BucketPose pose{r, z - ring_, control::with_cut(reach_.arm(), control::kPlunge)};
+    control::ArmAngles q;
+    if (!reach_.arm().inverse_nearest(pose, q)) return true;
+    for (double along = 0; along <= kAlongStick; along += kSample) {
+      const Vec2 at = reach_.arm().on_stick(q, along);
+      const Vec2 p = centre_ + at.x() * Vec2(std::cos(angle), std::sin(angle));
+      if (ring_ + at.y() - kUnderStick < surface_.height(p.x(), p.y())) return false;
+    }
+    return true;
+  }
+
   /// Returns the strip of a layer in direction `i`, of kFine per strip; nothing if it is not worth
   /// a scoop.
   std::optional<Strip> strip(int layer, int i) const {
@@ -146,6 +163,7 @@ class Fan {
     control::JobCut& out = found.cut;
     std::vector<double> floors;
     int first = -1, last = -1;
+    std::vector<double> soils;
     const double worth = layer == layers_ ? kWorth : worth_above_;
     const int samples = static_cast<int>((reach_.arm().longest() + 2 - kFaceBegins) / kSample);
     for (int k = 0; k <= samples; ++k) {
@@ -157,11 +175,17 @@ class Fan {
       const bool digs = soil > 0;
       // Where nothing is to be dug, the edge stays on the ground.
       floors.push_back(digs ? *z : z ? std::max(*z, top) : top);
-      if (!digs || soil < least_soil_) continue;
+      soils.push_back(digs && soil >= least_soil_ ? soil : 0);
+      if (soils.back() == 0) continue;
       if (first < 0) first = k;
       last = k;
-      found.volume += soil * width_ * kSample;
     }
+    const auto far = [&] { return static_cast<std::size_t>(last); };
+    while (last > first && (soils[far()] == 0 ||
+                            !stick_is_clear(kFaceBegins + last * kSample, angle, floors[far()])))
+      --last;
+    for (int k = std::max(first, 0); k <= last; ++k)
+      found.volume += soils[static_cast<std::size_t>(k)] * width_ * kSample;
     if (first < 0 || (last - first) * kSample < kLeastLength || found.volume < worth * capacity_)
       return std::nullopt;
     out.near = centre_ + (kFaceBegins + first * kSample) * along;

@@ -89,7 +89,7 @@ void run_with_trucks(DigRig& rig, int trucks, const Vec2& place, double limit) {
       rig.poured = 0;
       --trucks;
     }
-    if (rig.bed->middle == away.middle || rig.poured < 0.97 * kLoad) continue;
+    if (rig.bed->middle == away.middle || rig.poured < 0.96 * kLoad) continue;
     if (full < 0) full = rig.time;
     if (rig.time < full + 6) continue;
     rig.bed = away;
@@ -147,7 +147,7 @@ TEST(Load, LoadsTwoTrucksByEqualPassesAndWaitsForEach) {
   EXPECT_EQ(value(report, "loads"), 2);
   // The rig's bucket fills on in its curl, by up to half of a pass.
   for (const char* name : {"load_1_kg", "load_2_kg"}) {
-    EXPECT_GE(value(report, name), 0.97 * kLoad);
+    EXPECT_GE(value(report, name), 0.96 * kLoad);
     EXPECT_LE(value(report, name), 1.16 * kLoad);
   }
   EXPECT_NEAR(value(report, "load_offset_m"), 0.5, 1e-9);
@@ -211,11 +211,16 @@ TEST(DigArea, LoadsWhatItDigsIntoTrucks) {
   run_with_trucks(rig, 10, pit().dump_at, 1200);
   ASSERT_TRUE(rig.op.done()) << log.text();
   const StepReport& report = rig.op.reports().at(0);
-  const double dug = value(report, "design_volume_m3") - value(report, "volume_left_m3");
+  double dug = 0;
+  for (int iy = 0; iy < rig.ground.ny(); ++iy)
+    for (int ix = 0; ix < rig.ground.nx(); ++ix)
+      dug += (rig.ground.start_height(ix, iy) - rig.ground.height(ix, iy)) * rig.ground.cell() *
+             rig.ground.cell();
   EXPECT_LE(value(report, "volume_left_m3"), 0.15 * value(report, "design_volume_m3"));
-  // All of it went into the trucks: three are filled and one has the rest.
+  // All of it went into the trucks: three are filled and one has the rest. What the bucket spills
+  // in the pit lies there loose.
   EXPECT_NEAR(value(report, "loaded_kg"), dug * rig.ground.setup().soils[0].bank_density,
-              0.1 * value(report, "loaded_kg"));
+              0.05 * value(report, "loaded_kg"));
   EXPECT_GE(value(report, "loads"), 2);
 }
 

@@ -50,11 +50,12 @@ constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // Share of the design volume: with more left, a trench is not done
 // [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
-// Share of a stated load that may lack, and by which the last pass may be larger than a bucket.
-constexpr double kLoaded = 0.03, kMorePass = 0.1;
+// Share of a bucket by which the last pass of a stated load may be larger.
+constexpr double kMorePass = 0.1;
 // Bounds of the mass of a scoop / the mass that it aims at: a scoop that met rock teaches nothing.
 constexpr double kLeastGain = 0.8, kMostGain = 1.25;
-constexpr double kMostShift = 0.4;  // by which a dump is laid elsewhere to centre a load [m]
+constexpr double kThinSlice = 0.25;  // of a slice, for the rest of a load
+constexpr double kMostShift = 0.4;   // by which a dump is laid elsewhere to centre a load [m]
 // A pass along the floor that brings less than this share of a load is the last one: one of the
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
@@ -76,13 +77,23 @@ void Digging::begin(const Observation& seen) {
   const double fill = dig_.has_fill ? dig_.fill : usual_fill(soil, arm_);
   m.scoop_volume = fill * arm_.bucket().capacity / soil.swell;
   m.full_mass = m.scoop_volume * soil.bank_density;
-  plan_ = with_surface(seen, [&](const SurfaceView& surface) {
-    return DigPlan(dig_, trench_line(dig_, m.stance.swing_frame(arm_)), m.scoop_volume, surface);
-  });
   if (dig_.gain != nullptr) m.gain = *dig_.gain;
+  aim_at(lacking(seen));
+  Dig dig = dig_;
+  // A small rest of a load takes a thin slice: a thick one fills the bucket on its way down.
+  if (dig_.is_cut() && dig_.has_load)
+    dig.pass_depth *= std::clamp(aimed_mass() / m.full_mass, kThinSlice, 1.0);
+  plan_ = with_surface(seen, [&](const SurfaceView& surface) {
+    return DigPlan(dig, trench_line(dig_, m.stance.swing_frame(arm_)), m.scoop_volume, surface);
+  });
   // Cycles count over the whole program, limits over this dig.
   m.first_cycle = place_.handover.cycles;
   go_on(kReturn, seen);
+}
+
+void Digging::aim_at(double lack) {
+  // The rest is divided into equal passes, so that no small one is left.
+  if (dig_.has_load) m.wanted = lack / std::max(1.0, std::ceil(lack / m.full_mass - kMorePass));
 }
 
 bool Digging::plan_scoop(const Observation& seen) {
@@ -106,8 +117,7 @@ bool Digging::plan_scoop(const Observation& seen) {
     m.cleaning = scoop.any ? 1 : 0;
   }
   if (!scoop.any || beyond_reach(scoop)) return false;
-  // The rest is divided into equal passes, so that no small one is left.
-  if (dig_.has_load) m.wanted = lack / std::max(1.0, std::ceil(lack / m.full_mass - kMorePass));
+  aim_at(lack);
   m.scoop_start = scoop.start;
   m.soil_start = scoop.soil;
   m.scoop_end = scoop.end;

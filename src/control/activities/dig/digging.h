@@ -113,6 +113,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Selects the next scoop. Returns false if there is none, or if a limit on cycles or empty
   /// scoops is reached.
   bool plan_scoop(const Observation& seen);
+  /// Sets the mass that the next scoop is to bring, of the mass `lack` [kg] that a bed lacks.
+  void aim_at(double lack);
   /// Starts the move of the open bucket to the start of the scoop, and enters the phase `next`. In
   /// the phase kReturn the bucket stays above the edges; in kApproach, after the swing, it moves to
   /// a start that the ground seen from there has moved far along the trench.

@@ -13,8 +13,8 @@
 namespace navvy::control {
 
 /// Returns true if a bed with soil of mass `load` counts as loaded to the mass `wanted` [kg]: it
-/// lacks at most 3 % of it.
-inline bool is_loaded(double load, double wanted) { return load >= 0.97 * wanted; }
+/// lacks at most 4 % of it.
+inline bool is_loaded(double load, double wanted) { return load >= 0.96 * wanted; }
 
 /// Compares, cycle by cycle, the soil that leaves the bucket with the soil that lands in the bed of
 /// a receiving machine. Does nothing without a receiver, or if its load is unknown.

@@ -37,6 +37,9 @@ constexpr double kCurlTime = 1.7;  // [s]
 // on the trench 0.4, 0.6 and 0.7 m/s bring 600, 740 and 744 kg a cycle and over-dig 8.7, 9.2 and
 // 10.0 %, as the soil beside the cut breaks out with it.
 constexpr double kCurlSpeed = 0.6, kCutOn = 0.5, kFair = 0.3;
+// A bucket that the arm keeps from turning by more than this [rad] comes nearer at this speed [m/s]
+// and takes this share of the curl's pace.
+constexpr double kStretched = radians(4), kPull = 1.2, kStretchedPace = 0.3;
 // Shares of the curl at which the bucket has turned, and at which it begins to leave the ground.
 constexpr double kTurned = 0.7, kRises = 0.4;
 // Share of the curl from which on a bucket that has turned may be carried on.
@@ -165,9 +168,15 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
 bool Digging::curl(const Observation& seen, double dt, Command& out) {
   // A held bucket still curls, slowly; one that tips the machine waits.
   const double least = m.stance.tilt_factor(seen.X_WB) < 1 ? 0 : 0.1;
-  m.progress = std::min(1.0, m.progress + std::max(least, m.tip.slow) * dt / kCurlTime);
-  if (m.progress < kCutOn && (seen.payload > kFair * m.full_mass || m.s <= kCurlPath))
-    m.s = std::max(0.0, m.s - kCurlSpeed * m.tip.slow * dt);
+  // Far out the stretched arm holds the bucket open: it turns only as its edge comes nearer.
+  const bool stretched = m.tip.reached - m.tip.angle > kStretched;
+  const double pace = std::max(least, m.tip.slow) * (stretched ? kStretchedPace : 1);
+  m.progress = std::min(1.0, m.progress + pace * dt / kCurlTime);
+  const bool has_some = seen.payload > kFair * m.full_mass || m.s <= kCurlPath;
+  const bool has_enough = dig_.is_cut() && dig_.has_load && seen.payload > aimed_mass();
+  const bool cuts_on = m.progress < kCutOn && has_some && !has_enough;
+  const double nearer = std::max(cuts_on ? kCurlSpeed : 0.0, stretched ? kPull : 0.0);
+  m.s = std::max(0.0, m.s - nearer * m.tip.slow * dt);
   m.tip.angle = mix(m.curl_angle, kCarry, smooth(m.progress / kTurned));
   const double arc = arm_.bucket_length() * (std::sin(m.tip.reached) - std::sin(m.curl_angle));
   const double turned = std::max(m.curl_z + std::max(0.0, kAboutPin * arc), floor_height());
@@ -177,7 +186,12 @@ bool Digging::curl(const Observation& seen, double dt, Command& out) {
   const double clear = dig_.is_cut() ? std::max(surface, dig_.rim) : surface;
   const double top = clear + kOut + arm_.below_tip(m.tip.reached);
   m.tip.z = mix(turned, std::max(turned, top), smooth((m.progress - kRises) / (1 - kRises)));
+  const double before = m.tip.reached;
   follow_tip(seen, dt, out);
+  // The edge that comes nearer turns about the pin alone, or it would cut on all the way.
+  if (stretched)
+    m.curl_z += (1 - kAboutPin) * arm_.bucket_length() *
+                std::max(0.0, std::sin(m.tip.reached) - std::sin(before));
   // The carry goes on before the bucket has come to rest.
   const bool turned_up = m.progress > kCarryOn && m.tip.reached - kCarry < kTurnedIn;
   return m.progress >= 1 || turned_up || overdue(kPhaseLimit);
