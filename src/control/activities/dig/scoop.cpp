@@ -172,9 +172,8 @@ bool Digging::curl(const Observation& seen, double dt, Command& out) {
   const bool stretched = m.tip.reached - m.tip.angle > kStretched;
   const double pace = std::max(least, m.tip.slow) * (stretched ? kStretchedPace : 1);
   m.progress = std::min(1.0, m.progress + pace * dt / kCurlTime);
-  const bool has_some = seen.payload > kFair * m.full_mass || m.s <= kCurlPath;
-  const bool has_enough = dig_.is_cut() && dig_.has_load && seen.payload > aimed_mass();
-  const bool cuts_on = m.progress < kCutOn && has_some && !has_enough;
+  const bool cuts_on =
+      m.progress < kCutOn && (seen.payload > kFair * m.full_mass || m.s <= kCurlPath);
   const double nearer = std::max(cuts_on ? kCurlSpeed : 0.0, stretched ? kPull : 0.0);
   m.s = std::max(0.0, m.s - nearer * m.tip.slow * dt);
   m.tip.angle = mix(m.curl_angle, kCarry, smooth(m.progress / kTurned));
