@@ -25,10 +25,10 @@ constexpr double kAtStation = 0.3, kAtHeading = radians(6);
 constexpr double kAside = 0.4, kTurned = radians(6);
 // A cut that brings little is begun at most so often at one station: soil falls back into some. A
 // strip is levelled at most so often: a full bucket leaves the rest of it.
-constexpr int kMostRepeats = 2, kMostPasses = 3;
+constexpr int kMostRepeats = 3, kMostPasses = 3;
 // Share of a heaped bucket that is little; after so many such cuts in a row a station is dug.
 constexpr double kLittle = 0.3;
-constexpr int kMostPoor = 4;
+constexpr int kMostPoor = 6;
 // A strip of a heap gives at most so many scoops to one station.
 constexpr int kMostScoops = 12;
 // Share of the commanded volume: with more left, the pit is not done, as for a trench.

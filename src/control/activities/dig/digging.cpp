@@ -51,7 +51,7 @@ constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
 // Share of a bucket by which the last pass of a stated load may be larger.
-constexpr double kMorePass = 0.1;
+constexpr double kMorePass = 0.25;
 // Bounds of the mass of a scoop / the mass that it aims at: a scoop that met rock teaches nothing.
 constexpr double kLeastGain = 0.8, kMostGain = 1.25;
 constexpr double kThinSlice = 0.25;  // of a slice, for the rest of a load
@@ -184,7 +184,8 @@ void Digging::go_to_scoop(Phase next, const Observation& seen) {
 
 void Digging::learn_gain(double payload) {
   if (!dig_.has_load || m.wanted <= 0) return;
-  m.gain = std::clamp(m.gain * payload / m.wanted, kLeastGain, kMostGain);
+  // Half of the difference: scoops differ by more than places do.
+  m.gain = std::clamp(m.gain * std::sqrt(payload / m.wanted), kLeastGain, kMostGain);
   if (dig_.gain != nullptr) *dig_.gain = m.gain;
 }
 
