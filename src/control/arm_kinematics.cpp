@@ -71,10 +71,14 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
   const Vec3 cut =
       X_MS.linear().transpose() * (link(bucket_link).X_ML.linear() * bucket_data_.cut_direction);
   cut_angle_ = std::atan2(cut.z(), cut.x()) - tip_angle_;
-  // Outline of the shell seen from the side, rotated so that the line from pin to tip is level.
+  take_outline(machine, X_MS, tip);
+}
+
+void ArmKinematics::take_outline(const scene::Machine& machine, const Pose& X_MS, const Vec3& tip) {
   for (const scene::Shell& shell : machine.shells) {
     if (shell.name != bucket_data_.shell) continue;
-    const Pose X_SL = X_MS.inverse() * link(machine.link_index(shell.link)).X_ML;
+    const auto link = static_cast<std::size_t>(machine.link_index(shell.link));
+    const Pose X_SL = X_MS.inverse() * machine.links[link].X_ML;
     const Eigen::Rotation2Dd level(-tip_angle_);
     // Pyramids from the tip, which is in the plane of the mouth, on all triangles.
     for (const auto& triangle : shell.triangles) {

@@ -116,6 +116,10 @@ class ArmKinematics {
   // Sums the links of `machine` into `parts_`; `X_MS` is the pose of S in the machine's frame, and
   // `pins` are the pins of boom, stick and bucket in S, with all joints at position zero.
   void weigh(const scene::Machine& machine, const Pose& X_MS, const std::array<Vec3, 3>& pins);
+  // Takes the bucket's struck capacity, and the outline of its shell seen from the side, rotated so
+  // that the line from pin to tip is level. `tip` is the tip in S, with all joints at position
+  // zero.
+  void take_outline(const scene::Machine& machine, const Pose& X_MS, const Vec3& tip);
   // Upper structure (about the swing axis), boom, stick and bucket (about their pins, in the axes
   // of S with all joints at position zero).
   std::array<Part, 4> parts_{};
