@@ -21,6 +21,8 @@ namespace {
 
 /// Signals that end a process by a fault.
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+// The process whose crashes are reported; 0 before that. A child made by fork() has none to report.
+pid_t reported = 0;
 // A separate stack for the handler, which works after a stack overflow.
 alignas(16) char stack[64 << 10];
 
@@ -96,6 +98,10 @@ void report(const char* text) {
 extern "C" void on_crash(int signal) {
   // A second crash while handling this one ends the process as the system does.
   for (const int one : kCrashes) std::signal(one, SIG_DFL);
+  if (getpid() != reported) {
+    raise(signal);
+    return;
+  }
   char text[512];
   const bool driver = blame(signal == SIGABRT ? "abort" : "crash", signal, text, sizeof text);
   report(text);
@@ -152,6 +158,7 @@ extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file,
 }
 
 void install_crash_report() {
+  reported = getpid();
   // The first call loads a library, which must not happen in a handler.
   void* frames[4];
   backtrace(frames, 4);

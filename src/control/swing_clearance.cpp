@@ -8,7 +8,7 @@
 namespace navvy::control {
 namespace {
 
-constexpr int kSamples = 32;  // of a move: less than 0.5 m apart on a swing at full reach
+constexpr int kSamples = 64;  // of a move: at most 0.5 m apart in a half turn at full reach
 
 }  // namespace
 

@@ -140,7 +140,7 @@ class Fan {
   }
 
   /// Returns true if the stick stays above the soil while the bucket goes down to `z` [m] at the
-  /// distance `r` [m] in a direction [rad]. Behind the crest of a heap it may not.
+  /// distance `r` [m] in a direction [rad]. Behind the crest of a heap it would touch it.
   bool stick_is_clear(double r, double angle, double z) const {
     control::BucketPose pose{r, z - ring_, control::with_cut(reach_.arm(), control::kPlunge)};
     control::ArmAngles q;

@@ -124,11 +124,9 @@ float traversability(float inclination, float step_height, float roughness,
   return bad ? 0.0f : static_cast<float>(sum / 3);
 }
 
-// The three values below are kept, because traversability needs them again.
-float Surround::slope() {
-  if (!slope_) slope_ = slope_at(patch_, ix_, iy_);
-  return *slope_;
-}
+float Surround::slope() { return slope_at(patch_, ix_, iy_); }
+
+// The two values below are kept, because traversability needs them again.
 
 float Surround::step_height() {
   if (!step_height_) step_height_ = step_height_at(patch_, ix_, iy_, reach_);

@@ -121,9 +121,8 @@ class Surround {
   const TraversabilityLimits& limits_;
   /// Indices of the column, and window size in columns to each side.
   int ix_, iy_, reach_;
-  /// Slope [rad] and step height [m] of the column, and its plane; no value until they are first
-  /// requested.
-  std::optional<float> slope_, step_height_;
+  /// Step height [m] of the column, and its plane; no value until they are first requested.
+  std::optional<float> step_height_;
   std::optional<PlaneFit> plane_;
 };
 

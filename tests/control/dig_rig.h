@@ -60,7 +60,7 @@ class DigRig {
   std::optional<BedView> bed;
   /// Centre of the soil in that bed in W (x, y), if the operator can see it.
   std::optional<Vec2> load_centre;
-  /// How far from the bucket's tip what it pours lands in the bed, in W [m]; with it the operator
+  /// Offset in W [m] from the bucket's tip of what it pours into the bed; with it the operator
   /// sees the centre of what has been poured.
   std::optional<Vec2> lands_off;
   /// Soil in the mouth of the bucket while it is lowered, counted as load [kg].

@@ -12,6 +12,8 @@
 #include <optional>
 #include <string>
 
+#include "control/arm_kinematics.h"
+#include "control/dig_pose.h"
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
 #include "control/simple_planners.h"
@@ -112,6 +114,32 @@ TEST(Load, NamesAHeapOutOfReachAndBedsOutOfReach) {
   far = load(1);
   far.dump_at.y() = 10;
   EXPECT_NE(text(far).find("cannot be opened over the beds"), std::string::npos) << text(far);
+}
+
+TEST(Load, BeginsCutsWhereTheStickClearsTheHeap) {
+  heightfield::Ground ground = control::testing::flat_ground();
+  heap_up(ground, 1.8);
+  const scene::Machine machine = control::testing::ew180_like();
+  const control::ArmKinematics arm(machine);
+  const control::GroundSurfaceView surface(ground);
+  const Pose X_WB = make_pose(-4, 0, 0), X_WS = X_WB * arm.X_BS();
+  LoadTrucks step = load(1);
+  step.pass_depth = 0.7;
+  const auto cuts = job_planners()(machine)->cuts(step.job(), X_WB, surface);
+  ASSERT_FALSE(cuts.empty());
+  for (const control::JobCut& cut : cuts) {
+    const control::SwingPoint tip =
+        control::swing_point(X_WS, Vec3(cut.far.x(), cut.far.y(), cut.floor.back()));
+    control::BucketPose pose{tip.reach, tip.height, control::with_cut(arm, control::kPlunge)};
+    control::ArmAngles q;
+    ASSERT_TRUE(arm.inverse_nearest(pose, q));
+    for (double along = 0; along <= 1.5; along += 0.1) {
+      const Vec2 at = arm.on_stick(q, along);
+      const Vec3 p =
+          X_WS * Vec3(at.x() * std::cos(tip.swing), at.x() * std::sin(tip.swing), at.y());
+      EXPECT_GT(p.z(), surface.height(p.x(), p.y()) + 0.25) << cut.far.transpose();
+    }
+  }
 }
 
 TEST(Load, HoldsTheBucketOverTheBedWhileItsSoilLands) {

@@ -38,7 +38,7 @@ void visit_fault(Archive& a, Fault& fault) {
   a("remedy", fault.remedy);
 }
 
-/// What the child sends: a mesh, faults, or the text of another exception.
+/// Answer of the child: a mesh, faults, or the text of another exception.
 struct Answer {
   TriangleMesh mesh;
   std::vector<Fault> faults;
@@ -57,13 +57,21 @@ struct Answer {
   }
 };
 
-/// Runs in the child; never returns.
-[[noreturn]] void answer(int out, const std::function<TriangleMesh()>& read) {
-  // The parent's handlers would write reports and snapshots of a run that is not the child's.
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT, SIGPIPE})
+/// Gives the child the signals of a plain process. The parent's handlers would write reports and
+/// snapshots of a run that is not the child's, and its mask would keep Ctrl-C from ending it.
+void forget_handlers() {
+  for (const int signal :
+       {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT, SIGHUP, SIGPIPE})
     std::signal(signal, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  pthread_sigmask(SIG_SETMASK, &none, nullptr);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
+}
+
+/// Reads and sends the answer, in the child. Returns true if all of it was sent.
+bool answer(int out, const std::function<TriangleMesh()>& read) {
   Answer reply;
   try {
     reply.mesh = read();
@@ -76,11 +84,25 @@ struct Answer {
   for (std::size_t sent = 0; sent < bytes.size();) {
     const ssize_t n = ::write(out, bytes.data() + sent, bytes.size() - sent);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) ::_exit(1);
+    if (n <= 0) return false;
     sent += static_cast<std::size_t>(n);
   }
-  // Neither destructors nor buffers of the parent are the child's.
-  ::_exit(0);
+  return true;
+}
+
+/// Runs the child to its end. Nothing may unwind into the parent's frames: neither their handlers
+/// nor the parent's buffers are the child's.
+[[noreturn]] void run_child(const int (&ends)[2],
+                            const std::function<TriangleMesh()>& read) noexcept {
+  bool sent = false;
+  try {
+    // Without it, a child whose parent has died would wait for a reader for ever.
+    ::close(ends[0]);
+    forget_handlers();
+    sent = answer(ends[1], read);
+  } catch (...) {
+  }
+  ::_exit(sent ? 0 : 1);
 }
 
 std::vector<char> all_bytes(int in) {
@@ -95,13 +117,17 @@ std::vector<char> all_bytes(int in) {
 }
 
 /// Waits for the child. Returns how it ended; empty if well, or if the program ignores children.
-std::string end_of(pid_t child) {
+/// @throws Error if somebody has ended it
+std::string end_of(const std::string& path, pid_t child) {
   int status = 0;
   pid_t ended = 0;
   do ended = ::waitpid(child, &status, 0);
   while (ended < 0 && errno == EINTR);
   if (ended != child || (WIFEXITED(status) && WEXITSTATUS(status) == 0)) return "";
-  if (WIFSIGNALED(status)) return ::strsignal(WTERMSIG(status));
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGKILL)
+    throw Error(path + ": reading it was ended: " + ::strsignal(signal));
+  if (signal != 0) return ::strsignal(signal);
   return "exit status " + std::to_string(WEXITSTATUS(status));
 }
 
@@ -119,18 +145,22 @@ TriangleMesh read_in_child(const std::string& path, const std::string& library,
     ::close(ends[1]);
     throw Error(path + ": no process for reading it: " + std::strerror(reason));
   }
-  if (child == 0) answer(ends[1], read);
+  if (child == 0) run_child(ends, read);
   ::close(ends[1]);
   std::vector<char> bytes = all_bytes(ends[0]);
   ::close(ends[0]);
-  const std::string ended = end_of(child);
+  const std::string ended = end_of(path, child);
   if (!ended.empty() || bytes.empty())
     refuse_mesh(
         path, 0, "",
         library + ", which reads it, has crashed" + (ended.empty() ? "" : " (" + ended + ")"),
         "the file is damaged: copy or export it again, or export it as OBJ");
   Answer reply;
-  load_saved(std::move(bytes), reply);
+  try {
+    load_saved(std::move(bytes), reply);
+  } catch (const InputError& broken) {
+    refuse_mesh(path, 0, "", library + " failed: " + broken.what());
+  }
   if (!reply.faults.empty()) throw InputError(std::move(reply.faults));
   if (!reply.failure.empty()) refuse_mesh(path, 0, "", library + " failed: " + reply.failure);
   require_valid(reply.mesh, path);

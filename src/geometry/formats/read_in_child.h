@@ -14,7 +14,8 @@ namespace navvy::geometry {
 /// @param path name of the file, for messages
 /// @param library name of the library that `read` calls, for messages
 /// @throws what `read` throws: InputError as it is, any other exception as an InputError with its
-/// text; InputError if the child ends without an answer; Error if no child can be made
+/// text; InputError if the child crashes; Error if no child can be made, or
+/// somebody ends it
 TriangleMesh read_in_child(const std::string& path, const std::string& library,
                            const std::function<TriangleMesh()>& read);
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -221,7 +222,6 @@ TEST_F(ReadMesh, ACrashOfTheLibraryIsAnErrorOfTheFile) {
   dae.replace(dae.find("count=\"9\""), 5, "uoctn");
   const std::string crash = refusal("a.dae", dae);
   EXPECT_NE(crash.find("a.dae: error"), std::string::npos) << crash;
-  EXPECT_NE(crash.find("export it as OBJ"), std::string::npos) << crash;
 }
 
 TEST(ReadInChild, PassesOnMeshesFaultsAndFailuresAndOutlivesACrash) {
@@ -254,6 +254,16 @@ TEST(ReadInChild, PassesOnMeshesFaultsAndFailuresAndOutlivesACrash) {
       failure([]() -> TriangleMesh { std::abort(); }),
       "m: error: L, which reads it, has crashed (Aborted) (the file is damaged: copy or export "
       "it again, or export it as OBJ)");
+  // More than a pipe holds.
+  TriangleMesh large = mesh;
+  large.vertices.resize(100000, Vec3(0, 0, 1));
+  EXPECT_EQ(read_in_child("m", "L", [&] { return large; }).vertices, large.vertices);
+  EXPECT_THROW(read_in_child("m", "L",
+                             []() -> TriangleMesh {
+                               std::raise(SIGTERM);
+                               return {};
+                             }),
+               Error);
   mesh.triangles[0][2] = 3;
   EXPECT_NE(failure([&] { return mesh; }), "");
 }

@@ -50,12 +50,13 @@ constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // Share of the design volume: with more left, a trench is not done
 // [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
-// Share of a bucket by which the last pass of a stated load may be larger.
+// Share of a bucket by which a pass of a stated load may be planned larger.
 constexpr double kMorePass = 0.25;
 // Bounds of the mass of a scoop / the mass that it aims at: a scoop that met rock teaches nothing.
 constexpr double kLeastGain = 0.8, kMostGain = 1.25;
 constexpr double kThinSlice = 0.25;  // of a slice, for the rest of a load
 constexpr double kMostShift = 0.4;   // by which a dump is laid elsewhere to centre a load [m]
+constexpr double kResidue = 0.4;     // of a bucket: less soil in a bed is no pass
 // A pass along the floor that brings less than this share of a load is the last one: one of the
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
@@ -81,10 +82,11 @@ void Digging::begin(const Observation& seen) {
   aim_at(lacking(seen));
   Dig dig = dig_;
   // A small rest of a load takes a thin slice: a thick one fills the bucket on its way down.
-  if (dig_.is_cut() && dig_.has_load)
-    dig.pass_depth *= std::clamp(aimed_mass() / m.full_mass, kThinSlice, 1.0);
+  const double share = dig_.is_cut() ? std::clamp(aimed_mass() / m.full_mass, kThinSlice, 1.0) : 1;
+  dig.pass_depth *= share;
   plan_ = with_surface(seen, [&](const SurfaceView& surface) {
-    return DigPlan(dig, trench_line(dig_, m.stance.swing_frame(arm_)), m.scoop_volume, surface);
+    return DigPlan(dig, trench_line(dig_, m.stance.swing_frame(arm_)), share * m.scoop_volume,
+                   surface);
   });
   // Cycles count over the whole program, limits over this dig.
   m.first_cycle = place_.handover.cycles;
@@ -185,7 +187,8 @@ void Digging::go_to_scoop(Phase next, const Observation& seen) {
 void Digging::learn_gain(double payload) {
   if (!dig_.has_load || m.wanted <= 0) return;
   // Half of the difference: scoops differ by more than places do.
-  m.gain = std::clamp(m.gain * std::sqrt(payload / m.wanted), kLeastGain, kMostGain);
+  const double possible = std::min(m.wanted, m.full_mass);
+  m.gain = std::clamp(m.gain * std::sqrt(payload / possible), kLeastGain, kMostGain);
   if (dig_.gain != nullptr) *dig_.gain = m.gain;
 }
 
@@ -198,10 +201,12 @@ Vec2 Digging::dump_place(const Observation& seen) const {
 
 Vec2 Digging::off_centre(const Observation& seen) const {
   const double lack = lacking(seen), given = dig_.load - lack;
-  if (given <= 0 || !seen.load_centre_of) return Vec2::Zero();
+  // What a truck has not tipped says nothing of where passes land.
+  if (given < kResidue * m.full_mass || !seen.load_centre_of) return Vec2::Zero();
   const std::optional<Vec2> centre = seen.load_centre_of(dig_.into);
   if (!centre) return Vec2::Zero();
-  // Passes up to now, if each had landed in its place, lie about the middle of their share.
+  // Passes up to now, if each had landed in its place, lie about the middle of their share. Later
+  // ones are assumed to miss theirs by as much, so they balance that, too.
   const Vec2 meant = dig_.dump_at + (given / dig_.load - 1) * dig_.spread;
   const Vec2 shift = (meant - *centre) * (dig_.load / std::max(lack, 0.1 * dig_.load));
   return shift * std::min(1.0, kMostShift / std::max(shift.norm(), kMostShift));

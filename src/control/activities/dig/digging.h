@@ -46,8 +46,8 @@ struct DiggingMemory {
   double scoop_volume = 0, full_mass = 0;
   /// Mass that the current scoop shall bring when a bed is loaded to a stated mass [kg].
   double wanted = 0;
-  /// Mass that a scoop brought / payload at which its curl was to begin [-]; learned from the last
-  /// scoop.
+  /// Mass that a scoop brought / payload at which its curl was to begin [-]; learned from all
+  /// scoops.
   double gain = 1;
   /// TipPath::lift when the drag began [m].
   double lift_before = 0;
@@ -113,7 +113,7 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Selects the next scoop. Returns false if there is none, or if a limit on cycles or empty
   /// scoops is reached.
   bool plan_scoop(const Observation& seen);
-  /// Sets the mass that the next scoop is to bring, of the mass `lack` [kg] that a bed lacks.
+  /// Divides what a bed lacks [kg] into equal passes and sets the mass of the next one.
   void aim_at(double lack);
   /// Starts the move of the open bucket to the start of the scoop, and enters the phase `next`. In
   /// the phase kReturn the bucket stays above the edges; in kApproach, after the swing, it moves to
@@ -165,15 +165,17 @@ class Digging final : public ActivityWith<DiggingMemory> {
   void learn_gain(double payload);
   /// Returns the place (x, y) in W at which the bucket is to open [m].
   Vec2 dump_place(const Observation& seen) const;
-  /// Returns how far from its place a dump into a bed is laid [m], so that later passes balance
-  /// what earlier ones have missed it by.
+  /// Returns the offset in W [m] that moves the next dump into a bed, so that the load's centre
+  /// returns to the middle.
   Vec2 off_centre(const Observation& seen) const;
   /// Returns true if the job is to look for another cut.
   bool cut_is_over() const;
   /// Returns the mass that the bed still lacks [kg]; infinity without a stated mass.
   double lacking(const Observation& seen) const;
   /// Returns the payload that counts as full in the drag [kg].
-  double aimed_mass() const { return dig_.has_load ? m.wanted / m.gain : m.full_mass; }
+  double aimed_mass() const {
+    return dig_.has_load ? std::min(m.wanted, m.full_mass) / m.gain : m.full_mass;
+  }
   /// Sets the result of a step that loads a bed. Always returns true.
   bool conclude_load(const Observation& seen);
   /// Returns true if a further cleaning pass is allowed.
