@@ -150,9 +150,9 @@ extern "C" void on_exit_of_others() {
 // abort, and the C library then ends the process without our report.
 extern "C" void abort() noexcept { end_by_abort(); }
 
-extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file,
-                                           unsigned line,  // NOLINT: its name
-                                           const char* function) noexcept {
+extern "C" __attribute__((noreturn)) void __assert_fail(const char* what, const char* file,
+                                                        unsigned line,  // NOLINT: its name
+                                                        const char* function) noexcept {
   print_assertion(what, file, line, function);
   end_by_abort();
 }
