@@ -14,7 +14,7 @@ from workspace import BUILD, JOBS, ROOT, DevError, say
 
 FOLDER = BUILD / "jobs"
 # Hills of 4 cm, whose seed is that of the run; and how far a soil differs from the shipped one.
-HILLS = "<hills><height_m>0.04</height_m><length_m>5</length_m></hills></navvy:ground>"
+HILLS = "<hills><height_m>0.04</height_m><wavelength_m>5</wavelength_m></hills></navvy:ground>"
 COHESION, FRICTION = 0.15, 1.5
 COLUMNS = "%-22s %-10s %6s %6s %7s %7s %7s %6s %6s %8s %5s  %s"
 

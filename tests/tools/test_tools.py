@@ -3,6 +3,7 @@
 import contextlib
 import io
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -16,6 +17,7 @@ import compare as peers  # noqa: E402
 import dev  # noqa: E402
 import fuzz  # noqa: E402
 import gpu_check  # noqa: E402
+import jobs  # noqa: E402
 import lint  # noqa: E402
 import packages  # noqa: E402
 import scene_run  # noqa: E402
@@ -223,6 +225,18 @@ class Fuzz(unittest.TestCase):
         self.assertGreater(len(fuzz.chosen_targets("")), 5)
         with self.assertRaisesRegex(workspace.DevError, "no fuzz target 'x'; there is: control"):
             fuzz.chosen_targets("x")
+
+
+class Jobs(unittest.TestCase):
+    def test_seeds_are_scenes_that_navvy_can_read(self):
+        reference = (ROOT / "docs/reference/scene.md").read_text(encoding="utf-8")
+        table = reference.split("### `world/navvy:ground/hills`")[1].split("###")[0]
+        for element in re.findall(r"<(\w+_m)>", jobs.HILLS):
+            self.assertIn("`%s`" % element, table)
+        for name in jobs.names():
+            scene = (ROOT / "scenarios/jobs" / (name + ".sdf")).read_text(encoding="utf-8")
+            self.assertEqual(scene.count("</navvy:ground>"), 1, name)
+            self.assertRegex(scene, r'soil ref="\w+"')
 
 
 class Validation(unittest.TestCase):
