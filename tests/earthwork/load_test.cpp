@@ -195,6 +195,23 @@ TEST(Load, CentresALoadThatLandsBesideTheTip) {
   EXPECT_LT(value(rig.op.reports().at(0), "load_offset_m"), 0.4);
 }
 
+TEST(Load, TakesAThinSliceForASmallRest) {
+  const LogLines log;
+  DigRig rig = rig_of(load(1), make_pose(-4, 0, 0));
+  heap_up(rig.ground, 1.2);
+  rig.fills_bed = true;
+  rig.bed = bed_at(load(1).dump_at);
+  constexpr double kMissing = 300;
+  rig.poured = kLoad - kMissing;
+  rig.run(200);
+  ASSERT_TRUE(rig.op.done()) << log.text();
+  ASSERT_EQ(rig.cycles.size(), 1u);
+  std::printf("%.0f kg where %.0f kg are missing\n", rig.cycles[0].payload, kMissing);
+  EXPECT_GT(rig.cycles[0].payload, 0.7 * kMissing);
+  // A whole slice brings 1050 kg.
+  EXPECT_LT(rig.cycles[0].payload, 2 * kMissing);
+}
+
 TEST(Load, EndsWhenNoTruckComesAndSaysWhereTheyAre) {
   const LogLines log;
   DigRig rig = rig_of(load(1), make_pose(-4, 0, 0));

@@ -216,7 +216,10 @@ ArmAngles Digging::opening_pose(const Observation& seen, const Pose& X_WS, Vec2&
   const Vec2 axis = X_WS.translation().head<2>();
   const Vec2 out = (place - axis).normalized();
   const double reach = (place - axis).norm();
-  // On a heap that has grown too high the bucket opens nearer, or beyond it.
+  // On a heap that has grown too high the bucket opens nearer, or beyond it. Over a bed a load that
+  // was to lie aside may be out of reach.
+  const std::string why = dig_.has_load ? "the bucket does not reach the place in the bed, dumping "
+                                        : "the heap is too high to dump on it, dumping ";
   for (int i = 0; i <= kAsides; ++i) {
     const int steps = (i + 1) / 2;
     const double off = kAside * (i % 2 == 0 ? steps : -steps);
@@ -224,13 +227,11 @@ ArmAngles Digging::opening_pose(const Observation& seen, const Pose& X_WS, Vec2&
     ArmAngles q;
     double clearance = 0;
     if (!dump_pose(arm_, X_WS, p, heap_at(seen, p), dig_.dump_height, q, clearance)) continue;
-    if (i > 0)
-      place_.warn("the heap is too high to dump on it, dumping " + metres(std::abs(off)) +
-                  (off < 0 ? " nearer" : " farther out"));
+    if (i > 0) place_.warn(why + metres(std::abs(off)) + (off < 0 ? " nearer" : " farther out"));
     place = p;
     return q;
   }
-  place_.warn("the heap is too high to dump on it, dumping from where the bucket is");
+  place_.warn(why + "from where the bucket is");
   return place_.arm_angles();
 }
 
