@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "earthwork/station_search.h"
+#include "scene/polygon.h"
 
 namespace navvy::earthwork {
 namespace {
@@ -22,18 +23,32 @@ constexpr double kAside = 0.04;
 constexpr double kLeastSoil = 0.1, kLeastShare = 0.3;
 constexpr double kLeastLength = 0.8;  // of a cut [m]
 constexpr double kWorth = 0.3;        // least volume of a cut in the last layer / heaped capacity
-constexpr double kBeyondEdge = 0.6;   // where a pass that levels ends beyond the near edge [m]
+// A pass ends so far beyond its last soil, or the curl leaves a ramp there [m].
+constexpr double kBeyondEdge = 0.6;
 // A fill has mounds where a load fell: its level is looked at over so many samples at a time.
 constexpr std::size_t kMound = 10;
 constexpr int kAcross = 5;  // places across a strip at which its soil is looked at
 constexpr int kFine = 3;    // directions per strip
 // The sides of the bucket may be so far outside of the pit [m]: a trench is dug one bucket wide.
 constexpr double kOutside = 0.1;
+// But so far [m] where the sides are steeper than this [rad], the floor is not levelled and the pit
+// is this many buckets wide: a strip that ends aslant at a side leaves a triangle inside or digs
+// one outside. tuned: of 15 m3, 10 x 5 x 0.3 m, 0.1 / 0.4 leaves 2.4 / 1.4 and digs 0.1 / 0.6
+// outside.
+constexpr double kOutsideSteep = 0.4, kSteep = radians(75), kWide = 2.5;
 // Height of the stick's line over soil that it must not touch while the bucket goes down beyond it,
 // and how far from the bucket's pin that is looked at [m].
 constexpr double kUnderStick = 0.3, kAlongStick = 1.5;
 // Keys: layers are so far apart, and directions count from the middle of that.
 constexpr std::int64_t kLayerKeys = 1000;
+
+/// Returns how far the sides of a bucket of the width `width` [m] may be outside of a pit [m].
+double outside_of(const control::PitJob& job, const PitShape& pit, double width) {
+  if (job.heap || job.tolerance > 0 || job.area.batter <= kSteep) return kOutside;
+  const Vec2 longest = scene::longest_edge(job.area.polygon).normalized();
+  const auto [low, high] = pit.span(Vec2(-longest.y(), longest.x()));
+  return high - low < kWide * width ? kOutside : kOutsideSteep;
+}
 
 /// Strips of one machine in one pit.
 class Fan {
@@ -49,6 +64,7 @@ class Fan {
         tolerance_(job.tolerance),
         sector_(limits.sector),
         worth_above_(limits.worth_above),
+        outside_(outside_of(job, pit, width_)),
         least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)),
         fills_(job.heap.has_value()) {
     const Pose X_WS = X_WB * reach.arm().X_BS();
@@ -115,7 +131,7 @@ class Fan {
       out = std::max(out, z);
     }
     // The bucket's sides stay inside.
-    const double side = 0.5 * width_ - kOutside;
+    const double side = 0.5 * width_ - outside_;
     for (const double t : {-side, side})
       if (side > aside && std::isnan(pit_.floor(centre_ + r * along + t * across)))
         return std::nullopt;
@@ -188,14 +204,18 @@ class Fan {
       found.volume += soils[static_cast<std::size_t>(k)] * width_ * kSample;
     if (first < 0 || (last - first) * kSample < kLeastLength || found.volume < worth * capacity_)
       return std::nullopt;
-    out.near = centre_ + (kFaceBegins + first * kSample) * along;
+    const int begin = first - beyond(first);
+    out.near = centre_ + (kFaceBegins + begin * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
-    out.floor.assign(floors.begin() + first, floors.begin() + last + 1);
+    out.floor.assign(floors.begin() + begin, floors.begin() + last + 1);
     out.rim = pit_.rim();
     out.key = layer * kLayerKeys + i + kLayerKeys / 2;
     out.worth = worth;
     return found;
   }
+
+  /// Returns by how many samples a cut whose soil begins at the sample `first` ends nearer.
+  static int beyond(int first) { return std::min(first, static_cast<int>(kBeyondEdge / kSample)); }
 
   /// Returns the sum of the squares of the heights [m2] by which soil stands above the floor `z` of
   /// a strip, over kAcross places across it.
@@ -246,10 +266,9 @@ class Fan {
     const int length = last - first;
     if (first < 0 || length * kSample < kLeastLength || worst_mean(squares) <= tolerance_)
       return std::nullopt;
-    // The bucket leaves the ground beyond the near edge, as far as it reaches.
-    const int beyond = std::min(first, static_cast<int>(kBeyondEdge / kSample));
-    floors.insert(floors.begin(), before.end() - beyond, before.end());
-    out.near = centre_ + (kFaceBegins + (first - beyond) * kSample) * along;
+    const int more = beyond(first);
+    floors.insert(floors.begin(), before.end() - more, before.end());
+    out.near = centre_ + (kFaceBegins + (first - more) * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
     out.floor = std::move(floors);
     out.rim = pit_.rim();
@@ -261,7 +280,7 @@ class Fan {
   const PitShape& pit_;
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
-  const double width_, capacity_, slope_, tolerance_, sector_, worth_above_, least_soil_;
+  const double width_, capacity_, slope_, tolerance_, sector_, worth_above_, outside_, least_soil_;
   const bool fills_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;

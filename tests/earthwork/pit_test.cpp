@@ -80,6 +80,21 @@ TEST(PitPlan, DigsALongPitFromMoreStations) {
   EXPECT_GE(plan.stations.size(), 3u);
 }
 
+TEST(PitPlan, CutsRunOutBeyondTheNearEdge) {
+  // The floor of a cut ends on the ground, where the bucket curls: a curl leaves a ramp.
+  const heightfield::Ground ground = control::testing::flat_ground();
+  const auto planner = job_planners()(control::testing::ew180_like());
+  const DigArea step = pit(2, 2, 0.6);
+  const std::vector<control::JobCut> cuts =
+      planner->cuts(step.job(), make_pose(-7, 0, 0), control::GroundSurfaceView(ground));
+  ASSERT_FALSE(cuts.empty());
+  for (const control::JobCut& cut : cuts) {
+    EXPECT_LT(*std::min_element(cut.floor.begin(), cut.floor.end()), -0.25);
+    // Floors are 0.1 m apart; a side so shallow that no scoop asks for it is before the soil, too.
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(cut.floor.at(i), 0, 1e-6) << i;
+  }
+}
+
 TEST(PitPlan, DependsOnItsArgumentsAlone) {
   const heightfield::Ground ground = control::testing::flat_ground();
   const control::GroundSurfaceView surface(ground);

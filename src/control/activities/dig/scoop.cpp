@@ -66,8 +66,9 @@ constexpr double kPhaseLimit = 12;  // [s]
 // Distance of the heel behind the edge, and below it from which on it decides [m].
 constexpr double kHeel = 0.5, kHeelDown = 0.02;
 // Length of the bucket's body behind its edge [m], angle between its floor plate and a floor that
-// rises behind it, and the largest angle of the edge [rad].
+// rises behind it, and the largest angles of the edge below and above the horizontal [rad].
 constexpr double kBody = 0.7, kFollow = radians(6), kSteepest = radians(65);
+constexpr double kTurnedUp = radians(40);
 
 }  // namespace
 
@@ -82,15 +83,18 @@ double Digging::floor_height() const {
   const double below = arm_.below_tip(m.tip.reached),
                floor = plan_.floor_height(m.s, m.scoop_level);
   if (!dig_.is_cut() || below < kHeelDown) return floor + below;
-  // The heel is the lowest point, behind the edge, where the floor of a cut may be higher.
-  return std::max(floor, plan_.floor_height(m.s + kHeel, m.scoop_level)) + below;
+  // The heel is the lowest point, behind the edge, where the floor of a cut may be higher or lower.
+  return std::max(floor, plan_.floor_height(m.s + kHeel, m.scoop_level) + below);
 }
 
 double Digging::attack() const {
   if (!dig_.is_cut()) return kAttack;
   const double rise =
       plan_.floor_height(m.s + kBody, m.scoop_level) - plan_.floor_height(m.s, m.scoop_level);
-  return std::clamp(std::atan2(rise, kBody) + kFollow, kAttack, kSteepest);
+  const double slope = std::atan2(rise, kBody);
+  // Up a side that rises towards the machine the bucket is turned in, or its load falls out.
+  return std::clamp(std::max(slope + kFollow, kAttack + std::min(slope, 0.0)), -kTurnedUp,
+                    kSteepest);
 }
 
 bool Digging::is_aligned(const Observation& seen) const {
@@ -139,7 +143,9 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
   m.s -= gone;
   m.held_up += std::max(0.0, m.tip.lift - m.lift_before) * gone;
   // The bucket rotates to its digging angle as soon as its back is clear of the far end.
-  const double wish = with_cut(arm_, -kPi + attack()),
+  const double flat = with_cut(arm_, -kPi + kAttack), floor = with_cut(arm_, -kPi + attack());
+  // What it has turned in further up a side it does not open again.
+  const double wish = m.tip.angle < flat ? std::min(floor, m.tip.angle) : floor,
                turned = std::max(wish, m.tip.angle - kTurnIn * pace * dt);
   const double depth = plan_.start_height(m.s) - m.tip.z - m.tip.lift;
   if (plan_.length() - m.s + kPastEnd >= arm_.beyond_tip(turned, depth)) m.tip.angle = turned;
