@@ -162,8 +162,8 @@ TEST(Drive, FollowsTheStraightLineToATargetWithoutHeading) {
 }
 
 /// A machine that does not move whatever its command: the wheels' spin [rad/s] and the tyres' push
-/// [N] are given.
-StepReport stuck(double spin, const Vec3& push, double speed = 1) {
+/// [N] are given. It stands 5 m from its target.
+StepReport stuck(double spin, const Vec3& push, double speed = 1, double tolerance = 0.15) {
   scene::Machine machine = ew180_like();
   scene::Wheel wheel;
   wheel.joint = machine.joints[0].name;
@@ -173,7 +173,9 @@ StepReport stuck(double spin, const Vec3& push, double speed = 1) {
   // 18 t in total, whatever the masses of the test machine's links.
   for (scene::Link& link : machine.links)
     link.mass = 18000.0 / static_cast<double>(machine.links.size());
-  Operator op(machine, {{to(-4, 0, 0, speed)}, {}}, "digger");
+  DriveTo goal = to(-4, 0, 0, speed);
+  goal.tolerance = tolerance;
+  Operator op(machine, {{goal}, {}}, "digger");
   Observation seen;
   seen.joints.resize(machine.joints.size());
   seen.joints[0].velocity = spin;
@@ -207,6 +209,19 @@ TEST(Drive, IsStalledWhenItsWheelsDoNotTurn) {
   const StepReport report = stuck(0, Vec3::Zero());
   EXPECT_EQ(report.state, StepState::kStalled);
   EXPECT_NE(report.reason.find("does not turn its wheels"), std::string::npos) << report.reason;
+}
+
+TEST(Drive, IsDoneWhenItIsHeldWithinItsTolerance) {
+  for (const double push : {25e3, 0.0}) {
+    const StepReport report = stuck(0, Vec3(push, 0, 0), 1, 5);
+    EXPECT_EQ(report.state, StepState::kDone) << report.reason;
+    // It notices after 5 s, and stands for half a second.
+    EXPECT_NEAR(report.end, 5.5, 0.05);
+    EXPECT_EQ(report.reason.find("it has stood for 5.00 s, 5.00 m from the target: "), 0u)
+        << report.reason;
+    EXPECT_NE(report.reason.find("; allowed are 5.00 m"), std::string::npos) << report.reason;
+  }
+  EXPECT_EQ(stuck(0, Vec3(25e3, 0, 0), 1, 4.99).state, StepState::kBlocked);
 }
 
 TEST(Drive, GetsEnoughTimeToCreep) {

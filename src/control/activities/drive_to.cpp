@@ -72,18 +72,20 @@ class Driving final : public ActivityWith<Memory> {
     const double limit = 30 + 3 * m.start_distance / std::max(0.05, std::abs(step_.speed));
     const bool late = phase_time() > limit;
     if (pursuit.left(at) < kStopShort || m.standing > 0 || late) {
-      // Brake, and stand for a moment before the next step; `standing` stays positive once it
-      // began.
-      out.drive = vehicle::DriveInput{0, 0, true};
-      m.standing =
-          seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : std::max(m.standing, 1e-9);
+      brake(seen, dt, out);
       if (m.standing < kStandTime && phase_time() < limit + 10) return false;
       return stand(at, late);
     }
     std::string held;
     const StepState progress = m.progress.look(seen, place_.machine, step_.speed, miss(at),
                                                remaining(pursuit, at), dt, held);
-    if (progress != StepState::kRunning) return fall_short(progress, held);
+    if (progress != StepState::kRunning) {
+      // A machine that is held short of its target but within the tolerance has arrived.
+      if (phase_index() != kDrive || miss(at) > step_.tolerance) return fall_short(progress, held);
+      remark(held + "; allowed are " + metres(step_.tolerance));
+      brake(seen, dt, out);
+      return false;
+    }
     // Accelerate along the ramp, decelerate along the curve that stops at the target.
     m.speed = std::min(
         {std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
@@ -95,6 +97,13 @@ class Driving final : public ActivityWith<Memory> {
         steering.ease * speed, vehicle::steer_command(place_.machine.drive, steering.angle, speed),
         false};
     return false;
+  }
+
+  /// Brakes; `standing`, the time at rest with the brake on, stays positive from then on.
+  void brake(const Observation& seen, double dt, Command& out) {
+    out.drive = vehicle::DriveInput{0, 0, true};
+    m.standing =
+        seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : std::max(m.standing, 1e-9);
   }
 
   /// Returns the distance from the target [m].

@@ -10,7 +10,8 @@ namespace navvy::control {
 /// Drives the base link's origin to `target` with pure pursuit (see Pursuit) and feedback of the
 /// yaw rate (see CurvatureFeedback), then brakes and waits until the machine has stood still for
 /// half a second. If it stands more than `tolerance` from the target, it backs off by up to four
-/// wheelbases along the line that it follows and approaches the target a second time.
+/// wheelbases along the line that it follows and approaches the target a second time. A machine
+/// that something holds within `tolerance` of the target has arrived.
 ///
 /// The step fails if the machine ends more than `tolerance` from the target a second time, if it
 /// makes no progress, or if one of these drives takes longer than 30 s plus three times the time
