@@ -6,17 +6,24 @@
 
 namespace navvy::control {
 
-double clearance_along(const PathPlanner& planner, const Path& path, double s, double range,
-                       double enough) {
+double clearance_near(const PathPlanner& planner, const PlanePose& start, double clearance) {
+  const double here = planner.clearance(start, clearance);
+  return here > 0 && here < clearance ? std::min(here, kLeastClearance) : clearance;
+}
+
+bool keeps_clearance(const PathPlanner& planner, const Path& path, double s, double clearance) {
   constexpr double kStep = 0.1;  // [m]
-  const double remaining = std::max(0.0, path.length() - s);
-  const int steps = static_cast<int>(std::ceil(remaining / kStep));
-  double least = range;
+  const PlanePose& start = path.start();
+  const double near = clearance_near(planner, start, clearance), length = planner.length();
+  const int steps = static_cast<int>(std::ceil(std::max(0.0, path.length() - s) / kStep));
   // Both ends are sampled.
-  for (int i = 0; i <= steps && least >= enough; ++i)
-    least = std::min(least,
-                     planner.clearance(path.at(i < steps ? s + i * kStep : path.length()), range));
-  return least;
+  for (int i = 0; i <= steps; ++i) {
+    const PlanePose at = path.at(i < steps ? s + i * kStep : path.length());
+    const double least = (at.p - start.p).norm() <= length ? near : clearance;
+    // A greater clearance need not be known, so it is the range, too.
+    if (planner.clearance(at, least) < least) return false;
+  }
+  return true;
 }
 
 }  // namespace navvy::control

@@ -19,7 +19,7 @@ struct PathQuery {
   /// Poses of the machine at the start and at the end of the path.
   PlanePose start, goal;
   /// Minimum distance [m] between the machine's footprint and ground that the machine cannot drive
-  /// on, along the whole path.
+  /// on, along the whole path except near a start that is nearer to such ground (keeps_clearance).
   double clearance = 0.3;
   /// Maximum number of search iterations. The search has no time limit, so that results repeat.
   int iterations = 1000;
@@ -43,6 +43,8 @@ class PathPlanner {
   /// obstacle: ground it cannot drive on, unknown ground, or the site's edge. Returns `range` [m]
   /// if there is no obstacle within that distance.
   virtual double clearance(const PlanePose& at, double range) const = 0;
+  /// Returns the length of the machine's footprint [m].
+  virtual double length() const = 0;
   /// Returns a path for the query, or nothing if the search found none.
   virtual std::optional<Path> plan(const PathQuery& query) const = 0;
 };
@@ -51,10 +53,18 @@ class PathPlanner {
 /// not available.
 using MakePathPlanner = std::function<std::unique_ptr<PathPlanner>(const scene::Machine&)>;
 
-/// Returns the minimum clearance [m] along `path` from the driven distance `s` [m] to the end of
-/// the path, at most `range` [m]. The path is sampled every 0.1 m. Sampling stops at the first
-/// clearance below `enough` [m], which is then returned.
-double clearance_along(const PathPlanner& planner, const Path& path, double s, double range,
-                       double enough = 0);
+/// Clearance that a machine keeps while it leaves an obstacle that it stands near to [m].
+inline constexpr double kLeastClearance = 0.02;
+
+/// Returns the clearance [m] that a path from `start` keeps near that pose: at positions no farther
+/// from it than the length of the machine. It is `clearance` [m], but kLeastClearance, or the
+/// clearance of `start` where that is less, for a machine that stands nearer to an obstacle than
+/// `clearance`: such a machine may drive away. It is `clearance` for one that stands on an
+/// obstacle.
+double clearance_near(const PathPlanner& planner, const PlanePose& start, double clearance);
+
+/// Returns true if `path` keeps `clearance` [m] from the driven distance `s` [m] to its end, and
+/// clearance_near near its start. The path is sampled every 0.1 m.
+bool keeps_clearance(const PathPlanner& planner, const Path& path, double s, double clearance);
 
 }  // namespace navvy::control

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "control/path_follower.h"
 #include "map/map_maker.h"
@@ -20,6 +21,10 @@ namespace {
 // path, and poses between two checked ones come a little nearer. tuned:
 // GoToStep.DrivesAroundATrenchDugAfterPlanning
 constexpr double kReserve = 0.2;
+
+// Amount by which a machine that leaves an obstacle may come nearer to it than where it stands [m]:
+// columns are square, so the clearance of a path beside them varies.
+constexpr double kNearer = 0.01;
 
 class MapPathPlanner final : public control::PathPlanner {
  public:
@@ -37,7 +42,40 @@ class MapPathPlanner final : public control::PathPlanner {
     return planner::clearance(*map_, footprint_, at.p.x(), at.p.y(), at.yaw, range);
   }
 
+  double length() const override { return footprint_.front + footprint_.rear; }
+
   std::optional<control::Path> plan(const control::PathQuery& query) const override {
+    const ObstacleIndex index(*map_);
+    // The reserve is dropped where start or goal are nearer to obstacles than that, or the passage
+    // is too narrow.
+    for (const double reserve : {kReserve, 0.0})
+      for (const double near : clearances_near(query, query.clearance + reserve))
+        if (std::optional<control::Path> path =
+                search(query, index, query.clearance + reserve, near);
+            path && keeps_clearance(*this, *path, 0, query.clearance))
+          return path;
+    return std::nullopt;
+  }
+
+ private:
+  /// Returns the clearances near the start with which paths that otherwise keep `wanted` [m] are
+  /// searched for, one after the other.
+  std::vector<double> clearances_near(const control::PathQuery& query, double wanted) const {
+    const double here = clearance(query.start, query.clearance);
+    const double least = control::clearance_near(*this, query.start, query.clearance);
+    if (least == query.clearance) return {wanted};
+    if (here - kNearer <= least) return {least};
+    // First a path on which the machine comes no nearer to the obstacle.
+    return {here - kNearer, least};
+  }
+
+  /// Searches a path whose poses keep `wanted` [m], and `near` [m] near the start.
+  std::optional<control::Path> search(const control::PathQuery& query, const ObstacleIndex& index,
+                                      double wanted, double near) const {
+    const auto keeps = [&](const control::PlanePose& at, double least) {
+      return index.surely_clear(footprint_, at.p.x(), at.p.y(), at.yaw, least) ||
+             clearance(at, least) >= least;
+    };
     ReedsSheppProblem problem;
     problem.start = query.start;
     problem.goal = query.goal;
@@ -46,26 +84,14 @@ class MapPathPlanner final : public control::PathPlanner {
     problem.high = map_->origin() + map_->cell() * Vec2(map_->nx(), map_->ny());
     problem.iterations = query.iterations;
     problem.seed = query.seed;
-    const ObstacleIndex index(*map_);
-    double wanted = 0;
     problem.valid = [&](const control::PlanePose& at) {
-      return index.surely_clear(footprint_, at.p.x(), at.p.y(), at.yaw, wanted) ||
-             clearance(at, wanted) >= wanted;
+      return keeps(at, (at.p - query.start.p).norm() <= length() ? near : wanted);
     };
-    // The reserve is dropped where start or goal are nearer to obstacles than that, or the passage
-    // is too narrow.
-    for (const double reserve : {kReserve, 0.0}) {
-      wanted = query.clearance + reserve;
-      if (!problem.valid(query.start) || !problem.valid(query.goal)) continue;
-      std::optional<control::Path> path = plan_reeds_shepp(problem);
-      if (path &&
-          clearance_along(*this, *path, 0, query.clearance, query.clearance) >= query.clearance)
-        return path;
-    }
-    return std::nullopt;
+    // The goal keeps the whole clearance, also near the start.
+    if (!problem.valid(query.start) || !keeps(query.goal, wanted)) return std::nullopt;
+    return plan_reeds_shepp(problem);
   }
 
- private:
   map::MapMaker maker_;
   std::optional<map::TerrainMap> map_;
   Footprint footprint_;

@@ -13,6 +13,7 @@ class StraightPlanner final : public PathPlanner {
  public:
   void look(const SurfaceView&) override {}
   double clearance(const PlanePose&, double range) const override { return range; }
+  double length() const override { return 4; }
   std::optional<Path> plan(const PathQuery& query) const override {
     return Path(query.start, {{(query.goal.p - query.start.p).norm(), 0}});
   }
@@ -23,6 +24,7 @@ class BlockedPlanner final : public PathPlanner {
  public:
   void look(const SurfaceView&) override {}
   double clearance(const PlanePose&, double) const override { return 0; }
+  double length() const override { return 4; }
   std::optional<Path> plan(const PathQuery&) const override { return std::nullopt; }
 };
 

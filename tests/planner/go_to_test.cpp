@@ -209,6 +209,21 @@ TEST_F(GoToStep, ReportsWhyThereIsNoPath) {
             std::string::npos);
 }
 
+TEST_F(GoToStep, DrivesAwayFromATrenchThatIsNearerThanItsClearance) {
+  GoTo goal = to(9, -4, 0);
+  Trip trip({goal});
+  // The left side of the machine is 1.27 m from its middle.
+  dig(trip.ground, Vec2(-14, 1.5), Vec2(2, 3));
+  trip.run(200);
+  ASSERT_TRUE(trip.op.done()) << trip.op.reports().back().reason;
+  const double least = trip.least_clearance();
+  print_value("least clearance [m]", least, "> 0, < 0.3", "it starts nearer than asked for");
+  EXPECT_LT(least, 0.3);
+  EXPECT_GT(least, 0);
+  // The check of the remaining path accepts what the planner has found.
+  EXPECT_EQ(trip.value_of("plans"), 1);
+}
+
 TEST_F(GoToStep, RepeatsAndResumesBitIdentically) {
   const std::vector<scene::ProgramStep> program = {control::Wait(1), to(9, 0, 0)};
   const auto digest = [](Trip& trip) { return hash_of(trip.op).digest(); };

@@ -194,5 +194,77 @@ TEST_F(PathPlanner, FindsNothingIfNoPathExists) {
   EXPECT_FALSE(plan(open, hasty));
 }
 
+/// Digs trenches at ever greater distances in front of an excavator at (-8, 0), or to its left, and
+/// returns the first ground on which its clearance is at least `least` [m].
+heightfield::Ground trench_near(control::PathPlanner& planner, bool ahead, double least) {
+  for (double off = 0;; off += 0.05) {
+    heightfield::Ground ground = level_site();
+    if (ahead)
+      dig(ground, Vec2(-4.2 + off, -4), Vec2(-2.5 + off, 4));
+    else
+      dig(ground, Vec2(-14, 1.27 + off), Vec2(2, 3 + off));
+    planner.look(GroundSurfaceView(ground));
+    if (planner.clearance({Vec2(-8, 0), 0}, 1) >= least) return ground;
+  }
+}
+
+TEST_F(PathPlanner, LeavesAnObstacleThatIsNearerThanTheClearance) {
+  for (const bool ahead : {true, false})
+    for (const double near : {0.05, 0.15}) {
+      const heightfield::Ground ground = trench_near(*planner_, ahead, near);
+      PathQuery asked = query(-8, 9);
+      asked.goal.p.y() = -4;
+      const double here = planner_->clearance(asked.start, 1);
+      ASSERT_LT(here, kClearance);
+      const auto path = planner_->plan(asked);
+      ASSERT_TRUE(path) << ahead << near;
+      expect_drivable(*path, asked);
+      EXPECT_TRUE(keeps_clearance(*planner_, *path, 0, kClearance));
+      // The footprint stays free, and farther than its own length away the clearance holds.
+      EXPECT_GT(least_clearance(ground, *path), 0);
+      double least = 1;
+      for (double s = 0; s < path->length(); s += 0.02)
+        if ((path->at(s).p - asked.start.p).norm() > planner_->length())
+          least = std::min(least, planner_->clearance(path->at(s), 1));
+      print_value("clearance at the start, and away from it [m]", here, std::to_string(least),
+                  ">= 0.3 away from it");
+      // 1 cm between samples of the planner's own check.
+      EXPECT_GE(least, kClearance - 0.01);
+    }
+}
+
+TEST_F(PathPlanner, ComesNoNearerToAnObstacleThatItCanLeaveStraight) {
+  const heightfield::Ground ground = trench_near(*planner_, true, 0.15);
+  const double here = planner_->clearance({Vec2(-8, 0), 0}, 1);
+  const auto path = planner_->plan(query(-8, -12));
+  ASSERT_TRUE(path);
+  EXPECT_GE(least_clearance(ground, *path), here - 0.011);  // a millimetre for rounding
+}
+
+TEST_F(PathPlanner, DoesNotLeaveAnObstacleUnderItsFootprint) {
+  heightfield::Ground ground = level_site();
+  dig(ground, Vec2(-8, -0.5), Vec2(-7, 0.5));
+  EXPECT_FALSE(plan(ground, query(-8, 9)));
+  // Nor does it end nearer than the clearance, however near it starts.
+  trench_near(*planner_, true, 0.05);
+  PathQuery asked = query(-8, -8.1);
+  ASSERT_LT(planner_->clearance(asked.goal, 1), kClearance);
+  EXPECT_FALSE(planner_->plan(asked));
+}
+
+TEST_F(PathPlanner, KeepsTheClearanceAwayFromTheStart) {
+  heightfield::Ground ground = level_site();
+  // Beside the path, 12 m from its start.
+  dig(ground, Vec2(4, 1.6), Vec2(5, 3));
+  planner_->look(GroundSurfaceView(ground));
+  const Path straight({Vec2(-8, 0), 0}, {{17, 0}});
+  EXPECT_FALSE(keeps_clearance(*planner_, straight, 0, 0.6));
+  EXPECT_TRUE(keeps_clearance(*planner_, straight, 0, 0.05));
+  // Near the start of a path that begins there, the same ground does not count.
+  const Path beside({Vec2(3, 0), 0}, {{-10, 0}});
+  ASSERT_LT(planner_->clearance(beside.start(), 1), 0.6);
+  EXPECT_TRUE(keeps_clearance(*planner_, beside, 0, 0.6));
+}
+
 }  // namespace
 }  // namespace navvy::planner

@@ -166,9 +166,7 @@ class Going final : public ActivityWith<Memory> {
     m.clearance = std::min(m.clearance, place_.planner->clearance(plane_pose(seen.X_WB), kRange));
   }
   bool path_is_clear(double s) const {
-    // A greater clearance than the wanted one need not be known, so both bounds are the same.
-    return clearance_along(*place_.planner, m.path, s, step_.clearance, step_.clearance) >=
-           step_.clearance;
+    return keeps_clearance(*place_.planner, m.path, s, step_.clearance);
   }
 
   /// Plans from the machine's present pose; returns true when the step is over.
@@ -204,7 +202,8 @@ class Going final : public ActivityWith<Memory> {
                       " from ground it cannot drive on and from bodies: ";
     const double here = place_.planner->clearance(at, step_.clearance);
     const double there = place_.planner->clearance({step_.target, step_.heading}, step_.clearance);
-    if (here < step_.clearance)
+    // A machine near an obstacle may leave it, but one that stands on it finds no path.
+    if (here <= 0 && step_.clearance > 0)
       out += "it stands " + metres(here) + " from some";
     else if (there < step_.clearance)
       out += "the goal lies " + metres(there) + " from some";

@@ -12,7 +12,7 @@ namespace navvy::control {
 /// The first path is planned when the program begins, so that a missing path is reported before the
 /// machine moves. A new path is planned if
 /// - the step begins at a different pose than predicted,
-/// - ground within `clearance` of the remaining path is no longer traversable,
+/// - the remaining path no longer keeps `clearance` (keeps_clearance),
 /// - the machine has left the path, or
 /// - the path ended too far from the target.
 ///
@@ -34,7 +34,8 @@ struct GoTo final : ActivityStep {
   double tolerance = 0.5;
   /// Maximum deviation from the target heading at which the machine counts as arrived [rad].
   double turn_tolerance = radians(5);
-  /// Minimum distance of the machine's footprint from ground that is not traversable [m].
+  /// Minimum distance of the machine's footprint from ground that is not traversable [m], except
+  /// near a start that is nearer to it (keeps_clearance).
   double clearance = 0.3;
   /// Waiting time after a failed attempt to plan a path [s].
   double retry = 10;
