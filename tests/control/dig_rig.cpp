@@ -82,6 +82,7 @@ Observation DigRig::look() const {
   if (time < settled_at) seen.X_WB.linear() = Mat3::Identity();
   seen.v_WB = engine->link(0, 0).v_WL;
   seen.ground = &ground;
+  seen.force = felt;
   if (fills_bed) seen.load_of = [this](const std::string&) { return poured; };
   if (fills_bed)
     seen.load_centre_of = [this](const std::string&) {

@@ -63,6 +63,8 @@ class DigRig {
   /// Offset in W [m] from the bucket's tip of what it pours into the bed; with it the operator
   /// sees the centre of what has been poured.
   std::optional<Vec2> lands_off;
+  /// Force of the soil on the bucket that the operator feels [N].
+  double felt = 0;
   /// Soil in the mouth of the bucket while it is lowered, counted as load [kg].
   double in_mouth = 0;
   /// Largest angle of the line from pin to tip at the start of a curl [rad].

@@ -8,9 +8,11 @@
 #include <limits>
 #include <utility>
 
+#include "control/activities/bucket_press.h"
 #include "control/activities/drive_to.h"
 #include "control/activities/go_to.h"
 #include "control/activities/part.h"
+#include "control/activities/top_soil.h"
 #include "control/activity.h"
 #include "control/reach.h"
 #include "scene/polygon.h"
@@ -87,50 +89,6 @@ std::vector<double> offsets(const std::vector<std::pair<double, double>>& bands,
   return out;
 }
 
-// The density is that of the soil down to this depth [m].
-constexpr double kRolled = 0.3;
-
-/// Returns the density of the uppermost soil of a column [kg/m3], and 0 for bare rock.
-double top_density(const std::vector<heightfield::SoilLayer>& layers,
-                   const heightfield::GroundSetup& setup) {
-  double mass = 0, thick = 0;
-  for (auto layer = layers.rbegin(); layer != layers.rend() && thick < kRolled; ++layer) {
-    const double density =
-        setup.soils.at(layer->soil).bank_density / static_cast<double>(layer->specific_volume);
-    const double full = kilograms(layer->mass) / (density * setup.cell * setup.cell);
-    const double part = std::min(full, kRolled - thick);
-    mass += part * density;
-    thick += part;
-  }
-  return thick > 0 ? mass / thick : 0;
-}
-
-/// Mean height [m] and density [kg/m3] of the uppermost soil in a polygon.
-struct TopSoil {
-  double height = 0, density = 0;
-};
-TopSoil top_soil_in(const std::vector<Vec2>& polygon, const heightfield::Ground& site) {
-  TopSoil out;
-  double columns = 0;
-  Vec2 low = polygon.front(), high = low;
-  for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const Vec2i from = site.column_at(low.x(), low.y()).cwiseMax(0);
-  const Vec2i to =
-      site.column_at(high.x(), high.y()).cwiseMin(Vec2i(site.nx(), site.ny()) - Vec2i::Ones());
-  std::vector<heightfield::SoilLayer> layers;
-  for (int iy = from.y(); iy <= to.y(); ++iy)
-    for (int ix = from.x(); ix <= to.x(); ++ix) {
-      if (!scene::contains(polygon, site.origin() + site.cell() * Vec2(ix + 0.5, iy + 0.5)))
-        continue;
-      ++columns;
-      out.height += site.height(ix, iy);
-      site.column(ix, iy, layers);
-      out.density += top_density(layers, site.setup());
-    }
-  if (columns > 0) out.height /= columns, out.density /= columns;
-  return out;
-}
-
 /// State of a compact, except that of the drive that runs.
 struct RollingMemory {
   std::vector<RollerLane> lanes;
@@ -138,7 +96,7 @@ struct RollingMemory {
   std::int64_t passes = 0;  // of the present lane
   std::int64_t missed = 0;  // lanes that were left out
   bool planned = false;     // the drive to the present lane follows a planned path
-  double height = 0, density = 0;
+  TopSoil before;
   Vec2 begin = Vec2::Zero();  // where the present drive began
 
   void visit(Archive& a) {
@@ -158,8 +116,7 @@ struct RollingMemory {
     a("missed", missed);
     a("planned", planned);
     a("begin", begin);
-    a("height", height);
-    a("density", density);
+    before.visit(a);
   }
 };
 
@@ -169,20 +126,16 @@ class Rolling final : public ActivityWith<RollingMemory> {
 
   void begin(const Observation& seen) override {
     m.lanes = roller_lanes(place_.machine, step_.polygon, plane_pose(seen.X_WB).yaw);
-    const TopSoil before = top_soil_in(step_.polygon, *seen.ground);
-    m.height = before.height;
-    m.density = before.density;
+    m.before = top_soil_in(step_.polygon, *seen.ground);
     enter(kNext);
   }
   const char* phase() const override { return part_ ? part_->phase() : "plan"; }
   std::vector<Measurement> account(const Observation& seen) const override {
-    const TopSoil now = top_soil_in(step_.polygon, *seen.ground);
-    return {{"lanes", static_cast<double>(m.lanes.size())},
-            {"lanes_missed", static_cast<double>(m.missed)},
-            {"passes", static_cast<double>(step_.passes)},
-            {"density_before_kg_m3", m.density},
-            {"density_kg_m3", now.density},
-            {"settled_m", m.height - now.height}};
+    std::vector<Measurement> out = {{"lanes", static_cast<double>(m.lanes.size())},
+                                    {"lanes_missed", static_cast<double>(m.missed)},
+                                    {"passes", static_cast<double>(step_.passes)}};
+    add_settlement(m.before, top_soil_in(step_.polygon, *seen.ground), out);
+    return out;
   }
   void visit(Archive& a) override {
     ActivityWith::visit(a);
@@ -317,10 +270,23 @@ std::vector<RollerLane> roller_lanes(const scene::Machine& machine,
 }
 
 void Compact::check(const scene::StepSource& source) {
-  source.require(source.machine && source.machine->has_drive,
-                 "compact needs a machine with <navvy:drive>");
-  source.require(source.machine && !source.machine->wheels.empty(),
-                 "compact needs a machine with wheels or tracks");
+  if (with == With::kWheels) {
+    source.require(source.machine && source.machine->has_drive,
+                   "compact needs a machine with <navvy:drive>");
+    source.require(source.machine && !source.machine->wheels.empty(),
+                   "compact needs a machine with wheels or tracks");
+    if (source.has("press_n"))
+      source.error("press_n", source.written("press_n"), "wheels roll with the machine's weight",
+                   "remove it, or add <with>bucket</with>");
+  } else {
+    source.require(source.machine && !source.machine->arm.bucket.empty(),
+                   "compact with the bucket needs a machine with <navvy:arm>");
+    source.require(source.machine && !source.machine->buckets.empty(),
+                   "compact with the bucket needs a machine with <navvy:bucket>");
+    if (source.has("speed_m_per_s"))
+      source.error("speed_m_per_s", source.written("speed_m_per_s"),
+                   "the machine stands while it presses with the bucket", "remove it");
+  }
   if (source.has("polygon_m"))
     if (const std::optional<scene::PolygonFault> fault =
             scene::polygon_of(polygon_numbers, polygon))
@@ -328,10 +294,12 @@ void Compact::check(const scene::StepSource& source) {
 }
 
 std::unique_ptr<Activity> Compact::activity(OperatorContext& place) const {
+  if (with == With::kBucket) return bucket_press(place, *this);
   return std::make_unique<Rolling>(place, *this);
 }
 
 void Compact::check_reach(ReachCheck& check) const {
+  if (with == With::kBucket) return check_bucket_press(*this, check);
   const std::vector<RollerLane> lanes =
       roller_lanes(check.machine, polygon, plane_pose(check.X_WB).yaw);
   const heightfield::Terrain& site = check.surface.terrain();
