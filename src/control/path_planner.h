@@ -56,12 +56,15 @@ using MakePathPlanner = std::function<std::unique_ptr<PathPlanner>(const scene::
 /// Clearance that a machine keeps while it leaves an obstacle that it stands near to [m].
 inline constexpr double kLeastClearance = 0.02;
 
-/// Returns the clearance [m] that a path from `start` keeps near that pose: at positions no farther
-/// from it than the length of the machine. It is `clearance` [m], but kLeastClearance, or the
-/// clearance of `start` where that is less, for a machine that stands nearer to an obstacle than
-/// `clearance`: such a machine may drive away. It is `clearance` for one that stands on an
-/// obstacle.
+/// Returns the clearance [m] that a path from `start` keeps near that pose (is_near). It is
+/// `clearance` [m], but kLeastClearance, or the clearance of `start` where that is less, for a
+/// machine that stands nearer to an obstacle than `clearance`: such a machine may drive away. It is
+/// `clearance` for one that stands on an obstacle.
 double clearance_near(const PathPlanner& planner, const PlanePose& start, double clearance);
+
+/// Returns true if `at` is no farther from `start` than two lengths of the machine: far enough to
+/// drive along a wall beside it, from which it cannot turn away, until its rear is past the end.
+bool is_near(const PathPlanner& planner, const PlanePose& at, const PlanePose& start);
 
 /// Returns true if `path` keeps `clearance` [m] from the driven distance `s` [m] to its end, and
 /// clearance_near near its start. The path is sampled every 0.1 m.

@@ -3,6 +3,7 @@
 
 #ifdef NAVVY_WITH_OMPL
 
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -54,7 +55,8 @@ class MapPathPlanner final : public control::PathPlanner {
                 search(query, index, query.clearance + reserve, near);
             path && keeps_clearance(*this, *path, 0, query.clearance))
           return path;
-    return std::nullopt;
+    const double near = control::clearance_near(*this, query.start, query.clearance);
+    return near < query.clearance ? leave_straight(query, index, near) : std::nullopt;
   }
 
  private:
@@ -69,13 +71,42 @@ class MapPathPlanner final : public control::PathPlanner {
     return {here - kNearer, least};
   }
 
+  /// Returns a path that begins straight, ahead or back, until the obstacles at the start are out
+  /// of reach: beside a wall that is too near to turn, the search finds none.
+  std::optional<control::Path> leave_straight(const control::PathQuery& query,
+                                              const ObstacleIndex& index, double near) const {
+    constexpr double kStep = 0.1;  // [m]
+    const Vec2 ahead(std::cos(query.start.yaw), std::sin(query.start.yaw));
+    for (const double reserve : {kReserve, 0.0})
+      for (const double sense : {1.0, -1.0}) {
+        const double wanted = query.clearance + reserve;
+        control::PathQuery rest = query;
+        double length = 0;
+        while (control::is_near(*this, rest.start, query.start) && keeps(index, rest.start, near) &&
+               !keeps(index, rest.start, wanted)) {
+          length += sense * kStep;
+          rest.start.p = query.start.p + length * ahead;
+        }
+        if (!keeps(index, rest.start, wanted)) continue;
+        const std::optional<control::Path> path = search(rest, index, wanted, wanted);
+        if (!path) continue;
+        std::vector<control::PathPiece> pieces = path->pieces();
+        pieces.insert(pieces.begin(), {length, 0});
+        control::Path whole(query.start, std::move(pieces));
+        if (keeps_clearance(*this, whole, 0, query.clearance)) return whole;
+      }
+    return std::nullopt;
+  }
+
+  /// Returns true if the clearance of a pose is at least `least` [m].
+  bool keeps(const ObstacleIndex& index, const control::PlanePose& at, double least) const {
+    return index.surely_clear(footprint_, at.p.x(), at.p.y(), at.yaw, least) ||
+           clearance(at, least) >= least;
+  }
+
   /// Searches a path whose poses keep `wanted` [m], and `near` [m] near the start.
   std::optional<control::Path> search(const control::PathQuery& query, const ObstacleIndex& index,
                                       double wanted, double near) const {
-    const auto keeps = [&](const control::PlanePose& at, double least) {
-      return index.surely_clear(footprint_, at.p.x(), at.p.y(), at.yaw, least) ||
-             clearance(at, least) >= least;
-    };
     ReedsSheppProblem problem;
     problem.start = query.start;
     problem.goal = query.goal;
@@ -85,10 +116,10 @@ class MapPathPlanner final : public control::PathPlanner {
     problem.iterations = query.iterations;
     problem.seed = query.seed;
     problem.valid = [&](const control::PlanePose& at) {
-      return keeps(at, (at.p - query.start.p).norm() <= length() ? near : wanted);
+      return keeps(index, at, control::is_near(*this, at, query.start) ? near : wanted);
     };
     // The goal keeps the whole clearance, also near the start.
-    if (!problem.valid(query.start) || !keeps(query.goal, wanted)) return std::nullopt;
+    if (!problem.valid(query.start) || !keeps(index, query.goal, wanted)) return std::nullopt;
     return plan_reeds_shepp(problem);
   }
 

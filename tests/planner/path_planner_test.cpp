@@ -26,6 +26,7 @@ using control::Path;
 using control::PathQuery;
 using testing::dig;
 using testing::excavator;
+using testing::fill;
 using testing::level_site;
 
 constexpr double kClearance = 0.3;  // [m]
@@ -220,11 +221,11 @@ TEST_F(PathPlanner, LeavesAnObstacleThatIsNearerThanTheClearance) {
       ASSERT_TRUE(path) << ahead << near;
       expect_drivable(*path, asked);
       EXPECT_TRUE(keeps_clearance(*planner_, *path, 0, kClearance));
-      // The footprint stays free, and farther than its own length away the clearance holds.
+      // The footprint stays free, and farther than twice its own length away the clearance holds.
       EXPECT_GT(least_clearance(ground, *path), 0);
       double least = 1;
       for (double s = 0; s < path->length(); s += 0.02)
-        if ((path->at(s).p - asked.start.p).norm() > planner_->length())
+        if (!is_near(*planner_, path->at(s), asked.start))
           least = std::min(least, planner_->clearance(path->at(s), 1));
       print_value("clearance at the start, and away from it [m]", here, std::to_string(least),
                   ">= 0.3 away from it");
@@ -239,6 +240,22 @@ TEST_F(PathPlanner, ComesNoNearerToAnObstacleThatItCanLeaveStraight) {
   const auto path = planner_->plan(query(-8, -12));
   ASSERT_TRUE(path);
   EXPECT_GE(least_clearance(ground, *path), here - 0.011);  // a millimetre for rounding
+}
+
+TEST_F(PathPlanner, DrivesAlongAWallThatItCannotTurnAwayFrom) {
+  // Turning away at once, the rear would come nearer to the wall by 5 cm.
+  heightfield::Ground ground = trench_near(*planner_, false, 0.01);
+  // It ends 1.7 m behind the machine, and ahead of it.
+  fill(ground, Vec2(-15, 1), Vec2(-10.5, 4));
+  fill(ground, Vec2(-2.5, 1), Vec2(3, 4));
+  planner_->look(GroundSurfaceView(ground));
+  PathQuery asked = query(-8, 9);
+  asked.start.p.y() = 0.05;
+  asked.goal.p.y() = -4;
+  ASSERT_NEAR(planner_->clearance(asked.start, 1), 0.03, 1e-6);
+  const auto path = planner_->plan(asked);
+  ASSERT_TRUE(path);
+  EXPECT_GT(least_clearance(ground, *path), 0);
 }
 
 TEST_F(PathPlanner, DoesNotLeaveAnObstacleUnderItsFootprint) {
