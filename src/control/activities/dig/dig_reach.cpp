@@ -6,6 +6,7 @@
 
 #include "control/activities/dig/dig.h"
 #include "control/activities/dig/dig_plan.h"
+#include "control/activities/dig/dump_reach.h"
 #include "control/dig_pose.h"
 #include "control/reach.h"
 
@@ -15,7 +16,6 @@ namespace {
 constexpr double kMostOffset = 0.15;  // of the trench's line from the swing axis [m]
 constexpr double kWiderCut = 0.1;     // than the bucket [m]
 constexpr double kSpoilClear = 0.5;   // dump point to the trench's edge [m]
-constexpr const char* kMoveOrTurn = "move the target or turn the machine";
 
 /// Checks one dig at one pose of the machine. Stops at a line beside the swing axis, as everything
 /// else would be wrong, too.
@@ -55,7 +55,7 @@ class DigReach {
       require_tip(name, p, check_.surface.height(p.x(), p.y()) + kClear);
       require_tip(name, p, check_.surface.height(p.x(), p.y()) - dig_.depth);
     }
-    require_dump();
+    require_dump(check_, arm_, X_WS_, "dig", {dig_.dump_at, dig_.dump_height});
     // Distance of the dump point from the line between the ends, not beyond them.
     const Vec2 along = line.near - line.far;
     const double share =
@@ -81,41 +81,6 @@ class DigReach {
                                 " to " + metres(most)
                           : "the tip never gets to that height",
                  at.reach > most ? "stand nearer, or dig less deep or far" : "stand farther back");
-  }
-
-  void require_dump() {
-    // The ground before the dig: the operator observes the heap that grows there.
-    const double ground = check_.surface.height(dig_.dump_at.x(), dig_.dump_at.y());
-    const SwingPoint at = swing_point(X_WS_, Vec3(dig_.dump_at.x(), dig_.dump_at.y(), ground));
-    check_.require_swing(arm_, "dig/dump_at", at.swing, kMoveOrTurn);
-    ArmAngles q;
-    double possible = 0;
-    const bool any = dump_pose(arm_, X_WS_, dig_.dump_at, ground, dig_.dump_height, q, possible);
-    // Half a step of the search for the clearance is no fault.
-    if (any && possible > dig_.dump_height - 0.026) return;
-    if (any) {
-      check_.fault("dig/dump_height", metres(dig_.dump_height),
-                   "with a level bucket " + metres(at.reach) +
-                       " from the swing axis the tip opens at most " + metres(possible) +
-                       " over the ground",
-                   "dump lower, nearer or farther; on a map, --at another place");
-      return;
-    }
-    double least = 0, most = 0;
-    // Nothing is possible at this distance: search in the same direction.
-    const Vec2 axis = X_WS_.translation().head<2>(), u = (dig_.dump_at - axis).normalized();
-    for (double r = 1; r < arm_.longest() + 2; r += 0.05) {
-      if (!dump_pose(arm_, X_WS_, axis + r * u, ground, 0.3, q, possible)) continue;
-      if (most == 0) least = r;
-      most = r;
-    }
-    check_.fault("dig/dump_at", metres(at.reach) + " from the swing axis",
-                 most > 0 ? "a level bucket can be opened from " + metres(least) + " to " +
-                                metres(most) + " in that direction"
-                          : "the ground there is " + metres(at.height) +
-                                " over the swing ring: a level bucket can be opened over it "
-                                "nowhere in that direction",
-                 "move the dump point or the machine; on a map, --at another place");
   }
 
   const Dig& dig_;
