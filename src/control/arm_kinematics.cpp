@@ -194,6 +194,22 @@ double ArmKinematics::beyond_tip(double angle, double height) const {
   return farthest;
 }
 
+bool ArmKinematics::is_in_bucket(double angle, const Vec2& from_tip, double margin) const {
+  if (profile_.empty()) return false;
+  const Vec2 p = Eigen::Rotation2Dd(-angle) * from_tip;
+  // Inside the convex hull is not beyond the outermost vertex in any direction; 10 deg apart, the
+  // directions miss at most a 250th of the hull's size.
+  constexpr int kDirections = 36;
+  for (int i = 0; i < kDirections; ++i) {
+    const double turn = 2 * kPi * i / kDirections;
+    const Vec2 out(std::cos(turn), std::sin(turn));
+    double most = out.dot(profile_.front());
+    for (const Vec2& v : profile_) most = std::max(most, out.dot(v));
+    if (out.dot(p) > most + margin) return false;
+  }
+  return true;
+}
+
 bool ArmKinematics::inverse(const BucketPose& pose, ArmAngles& q) const {
   // Locate the bucket pin in the plane of the boom's foot; then solve two bars of known length,
   // elbow up, by the law of cosines.

@@ -56,6 +56,11 @@ class ArmKinematics {
   /// when the bucket is at `angle` [rad]. Only the part of the shell that is less than `height` [m]
   /// above the tip counts.
   double beyond_tip(double angle, double height) const;
+  /// Returns true if a point of the swing plane is inside the outline of the bucket's shell with
+  /// its mouth closed by a plane, or at most `margin` [m] outside of it. `from_tip` is the point
+  /// relative to the bucket's tip, outward and up [m], with the bucket at `angle` [rad]. False if
+  /// the shell is unknown.
+  bool is_in_bucket(double angle, const Vec2& from_tip, double margin) const;
   /// Returns the inertia of upper structure and arm about the swing axis at the joint angles `q`,
   /// with soil of the mass `load` [kg] at the middle of the line from the bucket's pin to its tip
   /// [kg m2].

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "control/body_view.h"
 #include "control/surface.h"
 #include "core/math.h"
 #include "heightfield/layered_ground.h"
@@ -70,6 +71,9 @@ struct Observation {
   /// this name, in W [m], or nothing without a bed or soil in it; empty if it is unknown. A call
   /// costs a pass over the particles.
   std::function<std::optional<Vec2>(const std::string&)> load_centre_of;
+  /// Function that returns all loose bodies in the world, in the order of the scene; empty if they
+  /// are unknown.
+  std::function<std::vector<BodyView>()> bodies;
   /// Function that returns true if the hitch of this name is closed; empty if that is unknown.
   std::function<bool(const std::string&)> is_hitched;
   /// Function that returns true if another machine is coupled to this one; empty if that is

@@ -107,8 +107,10 @@ void ReachCheck::require_swing(const ArmKinematics& arm, const char* element, do
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program,
                                const Pose& X_WB, const SurfaceView& surface,
                                const std::string& file, const std::string& name,
-                               const Planners& planners, std::vector<std::string>* notes) {
+                               const Planners& planners, std::vector<std::string>* notes,
+                               std::vector<BodyView> bodies) {
   ReachCheck check(machine, program, X_WB, surface, file, name, planners);
+  check.bodies = std::move(bodies);
   std::vector<Fault> faults = check.run();
   if (notes != nullptr) notes->insert(notes->end(), check.notes().begin(), check.notes().end());
   return faults;

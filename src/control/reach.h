@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "control/arm_kinematics.h"
+#include "control/body_view.h"
 #include "control/planners.h"
 #include "control/surface.h"
 #include "core/error.h"
@@ -42,6 +43,8 @@ class ReachCheck {
   std::unique_ptr<const JobPlanner> jobs;
   /// Predicted pose of the base link in W at the beginning of the step being checked.
   Pose X_WB;
+  /// Loose bodies of the world where they stand before the program.
+  std::vector<BodyView> bodies;
 
   /// Checks all steps in order, updates X_WB after each step that moves the machine, and returns
   /// the errors and warnings found.
@@ -107,12 +110,13 @@ std::string held_text(const scene::Joint& joint, const vehicle::JointState& stat
 /// of digs and drives refer to. Messages contain `file` (the scene file) and `name` (the machine's
 /// name in the scene; if empty, the model's name). `planners` makes the planners of paths and of
 /// jobs that steps need. Lines about plans, such as the stations of a job, are appended to `notes`,
-/// which may be null.
+/// which may be null. `bodies` are the loose bodies of the world.
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program,
                                const Pose& X_WB, const SurfaceView& surface,
                                const std::string& file, const std::string& name = "",
                                const Planners& planners = {},
-                               std::vector<std::string>* notes = nullptr);
+                               std::vector<std::string>* notes = nullptr,
+                               std::vector<BodyView> bodies = {});
 
 /// Returns the predicted poses of the base link in W: `X_WB` at the start, followed by the pose
 /// after each step of the program that moves the machine.

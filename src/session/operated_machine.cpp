@@ -11,6 +11,7 @@
 
 #include "core/log.h"
 #include "session/bed_box.h"
+#include "session/loose_bodies.h"
 #include "session/uncontrolled_machine.h"
 #include "sim/occupied_areas.h"
 #include "sim/read_particles.h"
@@ -146,6 +147,7 @@ void OperatedMachine::connect_gauges() {
   seen_.load_of = [&world](const std::string& name) { return load_of(world, name); };
   seen_.bed_of = [&world](const std::string& name) { return bed_of(world, name); };
   seen_.load_centre_of = [&world](const std::string& name) { return load_centre_of(world, name); };
+  seen_.bodies = [&world, bodies = LooseBodies(world.description())] { return bodies.in(world); };
   seen_.is_hitched = [&world](const std::string& name) {
     const std::vector<scene::Hitch>& hitches = world.description().hitches;
     for (std::size_t h = 0; h < hitches.size(); ++h)

@@ -56,8 +56,10 @@ scene::Program program_of_order(const sim::World& world, int machine, const std:
   if (out.steps.empty())
     refuse("order/steps", "", "there are no steps",
            "give at least one, such as <wait><duration_s>1</duration_s></wait>");
-  std::vector<Fault> faults = check_program(scene, index, out, around,
-                                            world.machines().at(machine).link(0).pose(), planners);
+  std::vector<Pose> X_WB;
+  for (int m = 0; m < world.machines().count(); ++m)
+    X_WB.push_back(world.machines().at(m).link(0).pose());
+  std::vector<Fault> faults = check_program(scene, index, out, around, X_WB, planners);
   const auto is_error = [](const Fault& one) { return one.severity == Fault::Severity::kError; };
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());

@@ -15,6 +15,7 @@
 #include "heightfield/design_surface.h"
 #include "heightfield/make_ground.h"
 #include "session/bed_box.h"
+#include "session/loose_bodies.h"
 #include "sim/occupied_areas.h"
 #include "sim/start_placing.h"
 
@@ -175,6 +176,7 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
                                   const std::vector<Pose>& X_WB, const control::Planners& planners,
                                   std::vector<std::string>* notes) {
   std::vector<Fault> faults;
+  const std::vector<control::BodyView> bodies = LooseBodies(world).at(X_WB);
   // Errors come first, warnings follow.
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
@@ -182,7 +184,7 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
         surface, std::make_shared<const std::vector<heightfield::OccupiedArea>>(
                      sim::occupied_areas(world, X_WB, staying_bodies(world, m))));
     for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), around,
-                                             world.file, placed.name, planners, notes))
+                                             world.file, placed.name, planners, notes, bodies))
       faults.push_back(std::move(fault));
     for (Fault& fault : NameCheck(world, m, placed.program, world.file).receivers())
       faults.push_back(std::move(fault));
@@ -195,10 +197,11 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
 
 std::vector<Fault> check_program(const scene::Scene& world, std::size_t machine,
                                  const scene::Program& program, const control::SurfaceView& surface,
-                                 const Pose& X_WB, const control::Planners& planners) {
+                                 const std::vector<Pose>& X_WB, const control::Planners& planners) {
   const scene::MachineInWorld& placed = world.machines.at(machine);
-  std::vector<Fault> faults = control::check_reach(placed.machine, program, X_WB, surface, "order",
-                                                   placed.name, planners, nullptr);
+  std::vector<Fault> faults =
+      control::check_reach(placed.machine, program, X_WB.at(machine), surface, "order", placed.name,
+                           planners, nullptr, LooseBodies(world).at(X_WB));
   const NameCheck names(world, machine, program, "order");
   for (const std::vector<Fault>& each : {names.receivers(), names.waits_and_hitches()})
     faults.insert(faults.end(), each.begin(), each.end());
