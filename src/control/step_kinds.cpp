@@ -3,6 +3,7 @@
 
 #include "control/activities/compact.h"
 #include "control/activities/dig/backfill.h"
+#include "control/activities/dig/clear.h"
 #include "control/activities/dig/dig.h"
 #include "control/activities/dig/dig_area.h"
 #include "control/activities/dig/grade.h"
@@ -31,6 +32,7 @@ const scene::StepKinds& step_kinds() {
       scene::step_kind<Unhitch>(),  scene::step_kind<DigArea>(),    scene::step_kind<Grade>(),
       scene::step_kind<Backfill>(), scene::step_kind<Repeat>(),     scene::step_kind<Compact>(),
       scene::step_kind<IfShort>(),  scene::step_kind<LoadTrucks>(), scene::step_kind<WaitLoad>(),
+      scene::step_kind<Clear>(),
   };
   return kinds;
 }

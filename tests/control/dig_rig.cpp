@@ -94,6 +94,12 @@ Observation DigRig::look() const {
       if (out) out->load = poured;
       return out;
     };
+  if (!stones.empty())
+    seen.bodies = [this] {
+      std::vector<BodyView> out;
+      for (const Stone& stone : stones) out.push_back(stone.body);
+      return out;
+    };
   seen.payload = payload_ + (op.phase() == "penetrate" || op.phase() == "drag" ? in_mouth : 0);
   return seen;
 }
@@ -141,6 +147,7 @@ void DigRig::step() {
   sweep(X_WB);
   pour(X_WB);
   leak(X_WB);
+  carry_stones(X_WB);
   if (carrying_) worst_tilt = std::max(worst_tilt, std::abs(tip_angle(X_WB) - kCarry));
 }
 
@@ -221,6 +228,25 @@ void DigRig::pour(const Pose& X_WB) {
   if (lands_off) moment_ += mass * (tip.head<2>() + *lands_off);
   if (fills_bed) return;
   drop(tip.head<2>(), 0.7, mass);
+}
+
+void DigRig::carry_stones(const Pose& X_WB) {
+  const bool scoops = op.phase() == "drag" || op.phase() == "curl";
+  const bool open = op.phase() == "dump" && tip_angle(X_WB) > -radians(110);
+  for (Stone& stone : stones) {
+    const Vec3 p_B = X_WB.inverse() * stone.body.centre;
+    // Behind the edge and between the sides of the bucket.
+    if (scoops && !stone.slips && !stone.held && p_B.x() > 0.2 && p_B.x() < 1.3 &&
+        std::abs(p_B.y()) < kHalfCut && std::abs(p_B.z()) < 0.6) {
+      stone.held = true;
+      stone.p_B = Vec3(0.6, p_B.y(), 0.3);
+    }
+    if (!stone.held) continue;
+    stone.body.centre = X_WB * stone.p_B;
+    if (!open) continue;
+    stone.held = false;
+    stone.body.centre.z() = 0.5 * stone.body.smallest;
+  }
 }
 
 void DigRig::drop(const Vec2& around, double radius, double mass) {

@@ -67,6 +67,17 @@ class DigRig {
   double felt = 0;
   /// Soil in the mouth of the bucket while it is lowered, counted as load [kg].
   double in_mouth = 0;
+  /// A loose body on the ground. The bucket takes it up when its edge passes below it, and drops it
+  /// when it opens.
+  struct Stone {
+    BodyView body;
+    /// True if the bucket pushes it aside instead.
+    bool slips = false;
+    /// True while it is in the bucket, at this place in the frame of the bucket's link.
+    bool held = false;
+    Vec3 p_B = Vec3::Zero();
+  };
+  std::vector<Stone> stones;
   /// Largest angle of the line from pin to tip at the start of a curl [rad].
   double steepest_curl = -kPi;
   /// Largest drop of the bucket's pin in a curl [m].
@@ -88,6 +99,7 @@ class DigRig {
   void sweep(const Pose& X_WB);
   void pour(const Pose& X_WB);
   void leak(const Pose& X_WB);
+  void carry_stones(const Pose& X_WB);
   void drop(const Vec2& around, double radius, double mass);
 
   scene::Machine machine_;

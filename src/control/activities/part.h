@@ -35,7 +35,7 @@ class Part {
   template <class Remake>
   void visit(Archive& a, const Remake& remake) {
     std::int64_t running = activity_ ? 1 : 0;
-    a("running", running);
+    a.ranged("running", running, 0, 1);
     if (a.loading()) {
       clear();
       if (running != 0) remake();

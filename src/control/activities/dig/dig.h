@@ -2,11 +2,13 @@
 // The program step `dig`: digs a straight trench.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "control/activity_step.h"
+#include "control/observation.h"
 
 namespace navvy::control {
 
@@ -67,6 +69,9 @@ struct Dig final : ActivityStep {
   /// Gain that loading a bed has taught, kept from dig to dig (DiggingMemory::gain); null: each dig
   /// begins with 1. Not an element of scenes.
   double* gain = nullptr;
+  /// Returns true while the bucket holds a body, which the dump waits for as for soil; empty: the
+  /// bucket holds soil only. Not an element of scenes.
+  std::function<bool(const Observation&)> holds;
   /// Returns true for a cut of a job: soil that is left is no failure, and the floor is not cleaned
   /// up.
   bool is_cut() const { return !floor.empty(); }

@@ -316,11 +316,15 @@ bool Digging::met_undiggable(const Observation& seen) const {
   return seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kLooseParticles) * m.full_mass;
 }
 
+bool Digging::is_empty(const Observation& seen) const {
+  return seen.payload < kEmpty * m.full_mass && !(dig_.holds && dig_.holds(seen));
+}
+
 bool Digging::dump(const Observation& seen) {
   // After the opening the shaking controls the bucket's joint: the move must not take it back.
   const double since = m.opened + phase_time();
   const bool open = since > m.move.duration() || m.move.advance(place_, seen, since, phase());
-  const bool empty = seen.payload < kEmpty * m.full_mass;
+  const bool empty = is_empty(seen);
   shake(seen);
   // The bucket need not open fully when it is empty before.
   if (empty && phase_time() > kEarly * m.move.open_time()) return true;
@@ -330,7 +334,7 @@ bool Digging::dump(const Observation& seen) {
 void Digging::shake(const Observation& seen) {
   // Sticky soil: a few strokes of the bucket cylinder, as every operator does.
   const double since = m.opened + phase_time() - m.move.duration();
-  if (since <= 0 || seen.payload < kEmpty * m.full_mass) return;
+  if (since <= 0 || is_empty(seen)) return;
   const double stroke = kShake * std::sin(kShakeRate * since);
   place_.handover.q[3] =
       std::clamp(m.move.target(3) - std::abs(stroke), arm_.lower(2), arm_.upper(2));

@@ -146,6 +146,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   void start_dump(const Observation& seen);
   /// Returns true if the load shows that the scoop has met soil that cannot be dug.
   bool met_undiggable(const Observation& seen) const;
+  /// Returns true if neither soil that counts nor a body is in the bucket.
+  bool is_empty(const Observation& seen) const;
   /// Continues the dump. Returns true when the bucket is empty, or when waiting longer is no use.
   bool dump(const Observation& seen);
   /// Shakes the bucket with its cylinder while soil sticks to it.
