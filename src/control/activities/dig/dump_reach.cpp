@@ -6,7 +6,7 @@
 namespace navvy::control {
 namespace {
 
-constexpr double kLeastClearance = 0.3;  // of a dump [m]
+constexpr double kLeastHeight = 0.3;  // of a dump [m]
 constexpr double kStep = 0.05;           // of the search for a distance [m]
 
 }  // namespace
@@ -35,7 +35,7 @@ void require_dump(ReachCheck& check, const ArmKinematics& arm, const Pose& X_WS,
   // Nothing is possible at this distance: search in the same direction.
   const Vec2 axis = X_WS.translation().head<2>(), u = (dump.at - axis).normalized();
   for (double r = 1; r < arm.longest() + 2; r += kStep) {
-    if (!dump_pose(arm, X_WS, axis + r * u, ground, kLeastClearance, q, possible)) continue;
+    if (!dump_pose(arm, X_WS, axis + r * u, ground, kLeastHeight, q, possible)) continue;
     if (most == 0) least = r;
     most = r;
   }
