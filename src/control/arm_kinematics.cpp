@@ -198,7 +198,7 @@ bool ArmKinematics::is_in_bucket(double angle, const Vec2& from_tip, double marg
   if (profile_.empty()) return false;
   const Vec2 p = Eigen::Rotation2Dd(-angle) * from_tip;
   // Inside the convex hull is not beyond the outermost vertex in any direction; 10 deg apart, the
-  // directions miss at most a 250th of the hull's size.
+  // directions let a point be beside an edge by a 23rd of its length.
   constexpr int kDirections = 36;
   for (int i = 0; i < kDirections; ++i) {
     const double turn = 2 * kPi * i / kDirections;

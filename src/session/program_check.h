@@ -29,8 +29,8 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
 
 /// Returns an error for every target of `program` that the machine with the index `machine` in the
 /// scene cannot reach, for a step whose receiver is no other machine with a bed, that waits for no
-/// other machine, or that opens no hitch of the machine. `X_WB` contains the present poses; it,
-/// `surface` and `planners` are as above. Messages name "order" as the file of `program`.
+/// other machine, or that opens no hitch of the machine. `X_WB` are the present poses of all base
+/// links; `surface` and `planners` are as above. Messages name "order" as the file of `program`.
 std::vector<Fault> check_program(const scene::Scene& world, std::size_t machine,
                                  const scene::Program& program, const control::SurfaceView& surface,
                                  const std::vector<Pose>& X_WB, const control::Planners& planners);

@@ -87,6 +87,14 @@ struct PressMemory {
   }
 };
 
+/// Returns true if the bucket can be pressed on the ground with its tip at `tip`: within the limits
+/// of the swing, ahead of the undercarriage and with its bottom level.
+bool is_within_reach(const ArmKinematics& arm, const FlatBottom& bottom, const SwingPoint& tip) {
+  const bool turns =
+      !arm.swing_limited() || (tip.swing >= arm.swing_lower() && tip.swing <= arm.swing_upper());
+  return turns && tip.reach >= kNearestDig && can_press_at(arm, bottom, tip);
+}
+
 class Pressing final : public ActivityWith<PressMemory> {
  public:
   Pressing(OperatorContext& place, const Compact& step)
@@ -165,7 +173,7 @@ class Pressing final : public ActivityWith<PressMemory> {
     const Pose X_WS = m.stance.swing_frame(arm_);
     for (const double height : {kOver, 0.0}) {
       const Vec2 p = tip_place();
-      if (!can_press_at(arm_, bottom_, swing_point(X_WS, Vec3(p.x(), p.y(), m.ground + height))))
+      if (!is_within_reach(arm_, bottom_, swing_point(X_WS, Vec3(p.x(), p.y(), m.ground + height))))
         return leave_out("it is out of the bucket's reach");
     }
     move_over(kOver, kArmAfterSwing, seen);
@@ -315,9 +323,7 @@ void check_bucket_press(const Compact& step, ReachCheck& check) {
     const double ground = ground_under(check.surface, place, axis, bottom);
     for (const double height : {kOver, -kBelow}) {
       const SwingPoint tip = swing_point(X_WS, Vec3(p.x(), p.y(), ground + height));
-      const bool turns = !arm.swing_limited() ||
-                         (tip.swing >= arm.swing_lower() && tip.swing <= arm.swing_upper());
-      if (turns && tip.reach >= kNearestDig && can_press_at(arm, bottom, tip)) continue;
+      if (is_within_reach(arm, bottom, tip)) continue;
       if (out_of_reach++ == 0) first = place, at = tip;
       break;
     }

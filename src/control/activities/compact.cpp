@@ -291,6 +291,7 @@ void Compact::check(const scene::StepSource& source) {
     if (const std::optional<scene::PolygonFault> fault =
             scene::polygon_of(polygon_numbers, polygon))
       source.error("polygon_m", fault->value, fault->rule, fault->remedy);
+  for (const Vec2& corner : polygon) source.on_site("polygon_m", corner);
 }
 
 std::unique_ptr<Activity> Compact::activity(OperatorContext& place) const {

@@ -137,7 +137,8 @@ class Driving final : public ActivityWith<Memory> {
 
   /// Handles a machine that has come to a stop; returns true when the step is over.
   bool stand(const PlanePose& at, bool late) {
-    if (late)
+    const bool arrived = phase_index() != kBackOffPhase && miss(at) <= step_.tolerance;
+    if (late && !arrived)
       return fall_short(StepState::kOutOfTime, "not there after " + number_text(phase_time(), "s") +
                                                    ", " + metres(miss(at)) + " from the target");
     if (phase_index() == kBackOffPhase) {

@@ -204,7 +204,7 @@ class Going final : public ActivityWith<Memory> {
     const double there = place_.planner->clearance({step_.target, step_.heading}, step_.clearance);
     // A machine near an obstacle may leave it, but one that stands on it finds no path.
     if (here <= 0 && step_.clearance > 0)
-      out += "it stands " + metres(here) + " from some";
+      out += "it stands on some";
     else if (there < step_.clearance)
       out += "the goal lies " + metres(there) + " from some";
     else

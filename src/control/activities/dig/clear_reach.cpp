@@ -35,7 +35,7 @@ class ClearCheck {
     require_area();
     const std::vector<BodyView> bodies = bodies_in(step_.polygon, check_.bodies);
     if (bodies.empty())
-      check_.warn(part("polygon"), place_text(step_.polygon.front()),
+      check_.warn(part("polygon_m"), place_text(step_.polygon.front()),
                   "no loose body is in the polygon",
                   "give its corners as x y in the world, or leave out the step");
     const double rim = rim_over(arm_, X_WS_, check_.bodies);
@@ -58,9 +58,9 @@ class ClearCheck {
     const std::string text =
         "'" + body.name + "' at " + place_text(body.centre.head<2>()) + ": " + value;
     if (check_.after_digging())
-      check_.warn(part("polygon"), text, rule, remedy);
+      check_.warn(part("polygon_m"), text, rule, remedy);
     else
-      check_.fault(part("polygon"), text, rule, remedy);
+      check_.fault(part("polygon_m"), text, rule, remedy);
   }
 
   /// Reports a polygon no part of which is within reach.
@@ -81,7 +81,7 @@ class ClearCheck {
     const SwingPoint at =
         swing_point(X_WS_, Vec3(p.x(), p.y(), check_.surface.height(p.x(), p.y())));
     const TipReach tip = tip_reach(arm_, at.height, at.pitch);
-    check_.fault(part("polygon"), metres(nearest) + " from the swing axis",
+    check_.fault(part("polygon_m"), metres(nearest) + " from the swing axis",
                  "the bucket's tip reaches from " + metres(std::max(kNearestDig, tip.least)) +
                      " to " + metres(tip.most) + " there, and no part of the polygon is between",
                  "drive the machine to it before this step");
@@ -89,7 +89,7 @@ class ClearCheck {
 
   void require_shell(const BodyView& body) {
     if (body.has_shell) return;
-    check_.warn(part("polygon"), "'" + body.name + "' at " + place_text(body.centre.head<2>()),
+    check_.warn(part("polygon_m"), "'" + body.name + "' at " + place_text(body.centre.head<2>()),
                 "without a navvy:shell a body sinks through loose soil, below the bucket's edge",
                 "give it a closed shell of the size of its collision shape");
   }
@@ -104,7 +104,7 @@ class ClearCheck {
 
   void require_place(const BodyView& body, double rim) {
     const SwingPoint at = swing_point(X_WS_, body.centre);
-    check_.require_swing(arm_, part("polygon").c_str(), at.swing, kMoveOrTurn);
+    check_.require_swing(arm_, part("polygon_m").c_str(), at.swing, kMoveOrTurn);
     const TipReach possible = clear_reach(arm_, X_WS_, body, rim, check_.surface);
     if (at.reach >= possible.least && at.reach <= possible.most) return;
     fault(body, metres(at.reach) + " from the swing axis",

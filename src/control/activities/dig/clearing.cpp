@@ -14,8 +14,8 @@
 namespace navvy::control {
 namespace {
 
-// Depth that each further try adds [m].
-constexpr double kDeeper = 0.05;
+// Depth that each further try adds, and the most that they add [m].
+constexpr double kDeeper = 0.05, kDeepest = 0.4;
 // A dumped body has come to rest below this speed [m/s], after this time at the earliest and at the
 // latest [s].
 constexpr double kAtRest = 0.05, kShortest = 0.5, kLongest = 6;
@@ -64,24 +64,27 @@ void Clearing::begin(const Observation& seen) {
   enter(kNext);
 }
 
-bool Clearing::is_cleared(const BodyView& body) const {
+bool Clearing::is_cleared(const Observation& seen, const BodyView& body) const {
   return bodies_in(step_.polygon, {body}).empty() &&
-         (body.centre.head<2>() - step_.dump_at).norm() <= step_.tolerance;
+         (body.centre.head<2>() - step_.dump_at).norm() <= step_.tolerance && !holds(seen, body);
 }
 
 bool Clearing::is_held(const Observation& seen) const {
   const std::optional<BodyView> body = find(bodies_of(seen), target().name);
-  if (!body) return false;
+  return body && holds(seen, *body);
+}
+
+bool Clearing::holds(const Observation& seen, const BodyView& body) const {
   const ArmKinematics& arm = *place_.arm;
   ArmAngles q;
   for (std::size_t i = 0; i < 3; ++i) q[i] = seen.joints[place_.joint(i + 1)].position;
   const double swing = seen.joints[place_.joint(0)].position;
   const Vec3 p = Eigen::AngleAxisd(-swing, Vec3::UnitZ()) *
-                 Vec3((seen.X_WB * arm.X_BS()).inverse() * body->centre);
+                 Vec3((seen.X_WB * arm.X_BS()).inverse() * body.centre);
   const BucketPose tip = arm.forward(q);
   return std::abs(p.y()) < 0.5 * arm.bucket().width &&
          arm.is_in_bucket(tip.angle, Vec2(p.x() - tip.reach, p.z() - tip.height),
-                          kProud * body->largest);
+                          kProud * body.largest);
 }
 
 bool Clearing::select(const Observation& seen) {
@@ -93,9 +96,9 @@ bool Clearing::select(const Observation& seen) {
   for (std::size_t i = 0; i < m.targets.size(); ++i) {
     ClearTarget& one = m.targets[i];
     const std::optional<BodyView> body = find(bodies, one.name);
-    if (!body || is_cleared(*body) || one.tries >= step_.tries) continue;
+    if (!body || is_cleared(seen, *body) || one.tries >= step_.tries) continue;
     const double reach = (body->centre - X_WS.translation()).head<2>().norm();
-    const double depth = step_.depth + kDeeper * static_cast<double>(one.tries);
+    const double depth = step_.depth + std::min(kDeepest, kDeeper * static_cast<double>(one.tries));
     const std::optional<ClearStrip> strip = with_surface(seen, [&](const SurfaceView& surface) {
       return clear_strip(*place_.arm, X_WS, *body, bodies, depth, surface);
     });
@@ -161,10 +164,12 @@ bool Clearing::is_moving(const Observation& seen) const {
 
 void Clearing::judge(const Observation& seen, const std::string& failure) {
   const std::optional<BodyView> body = find(bodies_of(seen), target().name);
-  if (!body || is_cleared(*body)) return;
+  if (!body || is_cleared(seen, *body)) return;
   const Vec2 place = body->centre.head<2>();
   if (!failure.empty())
     target().trouble = failure;
+  else if (holds(seen, *body))
+    target().trouble = "it stuck in the bucket";
   else if (!m.taken)
     target().trouble = "the bucket did not take it up";
   else if (bodies_in(step_.polygon, {*body}).empty())
@@ -205,7 +210,7 @@ bool Clearing::conclude(const Observation& seen) {
   std::size_t count = 0;
   for (const ClearTarget& one : m.targets) {
     const std::optional<BodyView> body = find(bodies, one.name);
-    if (body && is_cleared(*body)) continue;
+    if (body && is_cleared(seen, *body)) continue;
     ++count;
     left += (left.empty() ? ": '" : "; '") + one.name + "'";
     if (body) left += " at " + place_text(body->centre.head<2>());
@@ -231,7 +236,7 @@ std::vector<Measurement> Clearing::account(const Observation& seen) const {
   for (const ClearTarget& one : m.targets) {
     scoops += static_cast<double>(one.tries);
     const std::optional<BodyView> body = find(bodies, one.name);
-    if (!body || !is_cleared(*body)) continue;
+    if (!body || !is_cleared(seen, *body)) continue;
     ++cleared;
     farthest = std::max(farthest, (body->centre.head<2>() - step_.dump_at).norm());
   }

@@ -79,8 +79,10 @@ class Clearing final : public ActivityWith<ClearMemory> {
   void judge(const Observation& seen, const std::string& failure);
   /// Returns true if the bucket holds the body.
   bool is_held(const Observation& seen) const;
-  /// Returns true if the body is outside the polygon and near the place.
-  bool is_cleared(const BodyView& body) const;
+  /// Returns true if a body is in the bucket.
+  bool holds(const Observation& seen, const BodyView& body) const;
+  /// Returns true if the body is outside the polygon, near the place and not in the bucket.
+  bool is_cleared(const Observation& seen, const BodyView& body) const;
   /// Sets the result of the step by the bodies that are left. Always returns true.
   bool conclude(const Observation& seen);
   /// Returns the height of the bucket's tip over the ground at the dump, above what lies there.

@@ -7,7 +7,7 @@ namespace navvy::control {
 namespace {
 
 constexpr double kLeastHeight = 0.3;  // of a dump [m]
-constexpr double kStep = 0.05;           // of the search for a distance [m]
+constexpr double kStep = 0.05;        // of the search for a distance [m]
 
 }  // namespace
 
