@@ -23,8 +23,9 @@ constexpr double kAside = 0.04;
 constexpr double kLeastSoil = 0.1, kLeastShare = 0.3;
 constexpr double kLeastLength = 0.8;  // of a cut [m]
 constexpr double kWorth = 0.3;        // least volume of a cut in the last layer / heaped capacity
-// A pass ends so far beyond its last soil, or the curl leaves a ramp there [m].
-constexpr double kBeyondEdge = 0.6;
+// A pass ends so far beyond its last soil [m], or the curl leaves a ramp there; but not above a
+// side so high there [m]: the bucket would be thrown up and lose its load.
+constexpr double kBeyondEdge = 0.6, kHighEdge = 0.25;
 // A fill has mounds where a load fell: its level is looked at over so many samples at a time.
 constexpr std::size_t kMound = 10;
 constexpr int kAcross = 5;  // places across a strip at which its soil is looked at
@@ -204,7 +205,8 @@ class Fan {
       found.volume += soils[static_cast<std::size_t>(k)] * width_ * kSample;
     if (first < 0 || (last - first) * kSample < kLeastLength || found.volume < worth * capacity_)
       return std::nullopt;
-    const int begin = first - beyond(first);
+    const bool high = soils[static_cast<std::size_t>(first)] > kHighEdge;
+    const int begin = high ? first : first - beyond(first);
     out.near = centre_ + (kFaceBegins + begin * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
     out.floor.assign(floors.begin() + begin, floors.begin() + last + 1);

@@ -93,6 +93,10 @@ TEST(PitPlan, CutsRunOutBeyondTheNearEdge) {
     // Floors are 0.1 m apart; a side so shallow that no scoop asks for it is before the soil, too.
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(cut.floor.at(i), 0, 1e-6) << i;
   }
+  // A vertical side would throw the bucket up.
+  for (const control::JobCut& cut : planner->cuts(pit(3, 3, 0.4, 90).job(), make_pose(-7, 0, 0),
+                                                  control::GroundSurfaceView(ground)))
+    EXPECT_LT(cut.floor.front(), -0.3);
 }
 
 TEST(PitPlan, DependsOnItsArgumentsAlone) {
