@@ -96,6 +96,11 @@ class ArmKinematics {
   double swing_lower() const { return swing_lower_; }
   /// Returns the upper limit of the swing joint [rad]; meaningless without limits.
   double swing_upper() const { return swing_upper_; }
+  /// Returns true if the swing joint can turn to the angle `swing` [rad]. Whole turns count as they
+  /// stand, as the physics engine limits the joint.
+  bool swings_to(double swing) const {
+    return !swing_limited_ || (swing >= swing_lower_ && swing <= swing_upper_);
+  }
 
  private:
   // Index of the swing joint in scene::Machine::joints.

@@ -96,8 +96,7 @@ void ReachCheck::add(Fault::Severity severity, const std::string& element, const
 
 void ReachCheck::require_swing(const ArmKinematics& arm, const char* element, double swing,
                                const char* remedy) {
-  // Joint angles, as the physics engine limits them.
-  if (!arm.swing_limited() || (swing >= arm.swing_lower() && swing <= arm.swing_upper())) return;
+  if (arm.swings_to(swing)) return;
   fault(element, number_text(degrees(swing), "deg"),
         "the swing joint turns from " + number_text(degrees(arm.swing_lower()), "deg") + " to " +
             number_text(degrees(arm.swing_upper()), "deg"),

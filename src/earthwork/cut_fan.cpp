@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "earthwork/station_search.h"
-#include "scene/polygon.h"
 
 namespace navvy::earthwork {
 namespace {
@@ -46,9 +45,7 @@ constexpr std::int64_t kLayerKeys = 1000;
 /// Returns how far the sides of a bucket of the width `width` [m] may be outside of a pit [m].
 double outside_of(const control::PitJob& job, const PitShape& pit, double width) {
   if (job.heap || job.tolerance > 0 || job.area.batter <= kSteep) return kOutside;
-  const Vec2 longest = scene::longest_edge(job.area.polygon).normalized();
-  const auto [low, high] = pit.span(Vec2(-longest.y(), longest.x()));
-  return high - low < kWide * width ? kOutside : kOutsideSteep;
+  return pit.width() < kWide * width ? kOutside : kOutsideSteep;
 }
 
 /// Strips of one machine in one pit.

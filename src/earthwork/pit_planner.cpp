@@ -112,8 +112,7 @@ class PitPlanner final : public control::JobPlanner {
     const double along = std::atan2(longest.y(), longest.x());
     const Digger digger{reach_, pit.ground() + rise + arm_.X_BS().translation().z(),
                         arm_.X_BS().translation().x()};
-    const auto [near, far] = pit.span(Vec2(-longest.y(), longest.x()).normalized());
-    const bool narrow = far - near < kLeastAcross * arm_.bucket().width;
+    const bool narrow = pit.width() < kLeastAcross * arm_.bucket().width;
     Choice best;
     std::array<double, 4> least{};
     for (int i = 0; i < 4; i += narrow ? 2 : 1) {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "scene/polygon.h"
+
 namespace navvy::earthwork {
 
 PitShape::PitShape(const scene::DesignArea& area, const control::SurfaceView& surface)
@@ -95,6 +97,12 @@ std::pair<double, double> PitShape::span(const Vec2& along) const {
     out.second = std::max(out.second, one.p.dot(along));
   }
   return out;
+}
+
+double PitShape::width() const {
+  const Vec2 longest = scene::longest_edge(polygon_).normalized();
+  const auto [low, high] = span(Vec2(-longest.y(), longest.x()));
+  return high - low;
 }
 
 control::JobVolume PitShape::volume() const {

@@ -41,6 +41,8 @@ class PitShape {
   std::vector<PitColumn> columns() const;
   /// Returns the least and the greatest coordinate of its columns along a unit vector [m].
   std::pair<double, double> span(const Vec2& along) const;
+  /// Returns its extent square to the longest edge of the polygon [m].
+  double width() const;
   /// Returns the height of the ground in W at the first corner at the start [m].
   double ground() const { return ground_; }
   /// Returns the highest ground in the pit at the start [m].

@@ -90,9 +90,7 @@ struct PressMemory {
 /// Returns true if the bucket can be pressed on the ground with its tip at `tip`: within the limits
 /// of the swing, ahead of the undercarriage and with its bottom level.
 bool is_within_reach(const ArmKinematics& arm, const FlatBottom& bottom, const SwingPoint& tip) {
-  const bool turns =
-      !arm.swing_limited() || (tip.swing >= arm.swing_lower() && tip.swing <= arm.swing_upper());
-  return turns && tip.reach >= kNearestDig && can_press_at(arm, bottom, tip);
+  return arm.swings_to(tip.swing) && tip.reach >= kNearestDig && can_press_at(arm, bottom, tip);
 }
 
 class Pressing final : public ActivityWith<PressMemory> {

@@ -79,9 +79,7 @@ std::optional<ClearStrip> clear_strip(const ArmKinematics& arm, const Pose& X_WS
   const Vec2 axis = X_WS.translation().head<2>(), middle = body.centre.head<2>();
   const double reach = (middle - axis).norm(), radius = body.radius();
   const TipReach possible = clear_reach(arm, X_WS, body, out.rim, surface);
-  const double swing = swing_point(X_WS, body.centre).swing;
-  const bool turns =
-      !arm.swing_limited() || (swing >= arm.swing_lower() && swing <= arm.swing_upper());
+  const bool turns = arm.swings_to(swing_point(X_WS, body.centre).swing);
   if (!turns || reach < possible.least || reach > possible.most) return std::nullopt;
   const Vec2 along = (middle - axis) / reach, across(-along.y(), along.x());
   const double near = std::max(reach - radius - kPast, possible.least - radius);

@@ -144,7 +144,7 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
   m.held_up += std::max(0.0, m.tip.lift - m.lift_before) * gone;
   // The bucket rotates to its digging angle as soon as its back is clear of the far end.
   const double flat = with_cut(arm_, -kPi + kAttack), floor = with_cut(arm_, -kPi + attack());
-  // What it has turned in further up a side it does not open again.
+  // Turned in up a side, the bucket is not opened again where the side ends.
   const double wish = m.tip.angle < flat ? std::min(floor, m.tip.angle) : floor,
                turned = std::max(wish, m.tip.angle - kTurnIn * pace * dt);
   const double depth = plan_.start_height(m.s) - m.tip.z - m.tip.lift;
