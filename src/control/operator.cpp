@@ -8,6 +8,7 @@
 #include "control/activity.h"
 #include "control/activity_step.h"
 #include "control/reach.h"
+#include "control/turn_in_place.h"
 #include "control/watch.h"
 
 namespace navvy::control {
@@ -105,7 +106,7 @@ void Operator::State::plan_ahead(const Observation& seen) {
   Pose X_WB = seen.X_WB;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (const std::optional<PathQuery> query = steps[i]->path_ahead(plane_pose(X_WB))) {
-      if (std::optional<Path> path = place.planner->plan(*query))
+      if (std::optional<Path> path = plan_path(*place.planner, place.machine, *query))
         place.paths.push_back({static_cast<std::int64_t>(i) + 1, place.now, *std::move(path)});
       else
         log_warning(

@@ -21,6 +21,7 @@
 #include "planner/footprint.h"
 #include "planner/map_path_planner.h"
 #include "planner/sites.h"
+#include "scene/drive_kinds.h"
 #include "values.h"
 
 namespace navvy::planner {
@@ -43,12 +44,20 @@ GoTo to(double x, double y, double heading) {
   return step;
 }
 
+scene::Machine crawler() {
+  return scene_io::load_machine(navvy::source_dir() + "/vehicles/ex180_tracked/model.sdf");
+}
+
 /// An excavator's operator on a separate site.
 struct Trip {
-  explicit Trip(std::vector<scene::ProgramStep> program, double x = -8)
-      : op(excavator(), {std::move(program), {}}, "digger", path_planners()), ground(level_site()) {
+  explicit Trip(std::vector<scene::ProgramStep> program, double x = -8,
+                const scene::Machine& machine = excavator())
+      : op(machine, {std::move(program), {}}, "digger", path_planners()),
+        ground(level_site()),
+        crawls(scene::differential_drive(machine.drive) != nullptr),
+        footprint(footprint_of(machine)) {
     bicycle.at = {Vec2(x, 0), 0};
-    seen.joints.resize(excavator().joints.size());
+    seen.joints.resize(machine.joints.size());
     seen.ground = &ground;
   }
   void step() {
@@ -56,9 +65,20 @@ struct Trip {
     seen.X_WB = make_pose(at.p.x(), at.p.y(), 0, 0, 0, at.yaw);
     seen.v_WB = bicycle.speed * Vec3(std::cos(at.yaw), std::sin(at.yaw), 0);
     const control::Command command = op.update(seen, time, Bicycle::kStep);
-    if (command.drive) bicycle.step(*command.drive);
+    if (command.drive && !crawls) bicycle.step(*command.drive);
+    if (command.drive && crawls) crawl(*command.drive);
     time += Bicycle::kStep;
     if (++steps % 20 == 0) poses.push_back(bicycle.at);
+  }
+  /// A crawler's tracks follow their command at once and do not slip.
+  void crawl(const vehicle::DriveInput& input) {
+    bicycle.braked = input.brake;
+    bicycle.speed = input.brake ? 0 : input.speed;
+    const double turn = input.brake ? 0 : input.steer;
+    bicycle.at.p +=
+        bicycle.speed * Bicycle::kStep * Vec2(std::cos(bicycle.at.yaw), std::sin(bicycle.at.yaw));
+    bicycle.at.yaw += turn * Bicycle::kStep;
+    if (bicycle.speed == 0) turned += std::abs(turn) * Bicycle::kStep;
   }
   void run(
       double until, const std::function<void()>& each = [] {}) {
@@ -72,7 +92,6 @@ struct Trip {
     map::MapMaker maker{map::MapOptions()};
     maker.update(ground.view());
     const map::TerrainMap map = maker.map();
-    const Footprint footprint = footprint_of(excavator());
     double least = 1;
     for (const control::PlanePose& at : poses)
       least = std::min(least, clearance(map, footprint, at.p.x(), at.p.y(), at.yaw, 1));
@@ -91,6 +110,9 @@ struct Trip {
   std::vector<control::PlanePose> poses;
   double time = 0;
   int steps = 0;
+  bool crawls = false;
+  Footprint footprint;
+  double turned = 0;  ///< on the spot [rad]
 };
 
 class GoToStep : public ::testing::Test {
@@ -260,6 +282,58 @@ std::vector<Fault> faults_of(const GoTo& step, const control::MakePathPlanner& p
   dig(ground, Vec2(8, -1), Vec2(10, 1));
   return control::check_reach(excavator(), {{step}, {17}}, make_pose(-8, 0, 0),
                               control::GroundSurfaceView(ground), "mine.sdf", "digger", planners);
+}
+
+TEST_F(GoToStep, ACrawlerTurnsOnTheSpotRatherThanToAndFro) {
+  // Three metres aside.
+  const GoTo goal = to(-8, 3, 0);
+  Trip trip({goal}, -8, crawler());
+  trip.run(60);
+  expect_arrived(trip, goal);
+  EXPECT_EQ(trip.value_of("plans"), 1);
+  EXPECT_EQ(trip.value_of("cusps"), 0);
+  EXPECT_NEAR(trip.value_of("driven_m"), 3, 0.1);
+  EXPECT_NEAR(degrees(trip.turned), 180, 5);
+  EXPECT_LT(trip.value_of("goal_error_deg"), 1);
+  // At the goal with another heading.
+  const GoTo about = to(-8, 0, radians(-60));
+  Trip turn({about}, -8, crawler());
+  turn.run(60);
+  expect_arrived(turn, about);
+  EXPECT_EQ(turn.value_of("plans"), 0);
+  EXPECT_EQ(turn.bicycle.at.p, Vec2(-8, 0));
+  // A machine on wheels does not.
+  Trip wheels({goal});
+  wheels.run(120);
+  expect_arrived(wheels, goal);
+  EXPECT_GT(wheels.value_of("driven_m"), 4);
+}
+
+TEST_F(GoToStep, ACrawlerKeepsItsClearanceWhileItTurns) {
+  // A wall beside it leaves space for the machine, but not for its corners.
+  const GoTo goal = to(-8, 0, radians(180));
+  Trip trip({goal}, -8, crawler());
+  dig(trip.ground, Vec2(-18, 2.0), Vec2(18, 6));
+  trip.run(300);
+  expect_arrived(trip, goal);
+  EXPECT_GE(trip.value_of("plans"), 1) << "it drives to where it can turn";
+}
+
+TEST_F(GoToStep, ACrawlerResumesBitIdenticallyInATurn) {
+  const GoTo goal = to(-8, 3, 0);
+  Trip whole({goal}, -8, crawler()), first({goal}, -8, crawler());
+  whole.run(60);
+  first.run(2);  // while it turns
+  ASSERT_GT(first.turned, 0.1);
+  ASSERT_EQ(first.bicycle.speed, 0);
+  Trip second({goal}, -8, crawler());
+  load_saved(saved(first.op), second.op);
+  second.bicycle = first.bicycle;
+  second.time = first.time;
+  second.run(60);
+  EXPECT_EQ(second.bicycle.at.p, whole.bicycle.at.p);
+  EXPECT_EQ(second.bicycle.at.yaw, whole.bicycle.at.yaw);
+  EXPECT_EQ(second.time, whole.time);
 }
 
 TEST_F(GoToStep, IsRefusedBeforeTheRunIfTheGoalIsOnAnObstacle) {

@@ -12,6 +12,7 @@
 #include "control/path_follower.h"
 #include "control/progress_monitor.h"
 #include "control/reach.h"
+#include "control/turn_in_place.h"
 #include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
@@ -25,16 +26,18 @@ constexpr double kSettle = 0.3;
 constexpr double kOffPath = 0.25, kOffTurn = radians(20);
 // Tolerance from the start of a path that was planned ahead.
 constexpr double kElsewhere = 0.1, kElsewhereTurn = radians(3);
+// A turn on the spot ends so near to its heading [rad].
+constexpr double kTurned = radians(0.5);
 // Largest clearance that messages report [m].
 constexpr double kRange = 1;
 // Number of new plans after a path that ended beside the goal.
 constexpr int kMostCorrections = 3;
 constexpr int kMostPlans = 100;  // nothing may go on for ever
 
-enum Phase : std::int64_t { kPlan, kTurn, kDrive, kStop, kNoPath };
+enum Phase : std::int64_t { kPlan, kTurn, kDrive, kStop, kNoPath, kSpin };
 
 /// The next action once the machine stands.
-enum class Then : std::uint8_t { kNextLeg, kPlanAnew };
+enum class Then : std::uint8_t { kNextLeg, kPlanAnew, kStartPath };
 
 struct Memory {
   Path path;
@@ -47,6 +50,9 @@ struct Memory {
   double unseen = 0;    // [s] since the last look
   double driven = 0;    // [m] by paths that are left
   double clearance = kRange;
+  double heading = 0;  // at the end of a turn on the spot [rad]
+  double spin = 0;     // angle of that turn at its start [rad]
+  bool spins = true;   // false after a turn that did not get there
   std::int64_t plans = 0, failed = 0, corrections = 0, cusps = 0;
   Then then = Then::kNextLeg;
   ProgressMonitor progress;
@@ -65,11 +71,14 @@ struct Memory {
     a("unseen", unseen);
     a("driven", driven);
     a("clearance", clearance);
+    a("heading", heading);
+    a("spin", spin);
+    a("spins", spins);
     a("plans", plans);
     a("failed", failed);
     a("corrections", corrections);
     a("cusps", cusps);
-    a.ranged("then", then, Then::kNextLeg, Then::kPlanAnew);
+    a.ranged("then", then, Then::kNextLeg, Then::kStartPath);
     progress.visit(a);
   }
 };
@@ -82,6 +91,7 @@ class Going final : public ActivityWith<Memory> {
   const char* phase() const override {
     switch (phase_index()) {
       case kTurn:
+      case kSpin:
         return "turn";
       case kDrive:
         return "drive";
@@ -100,8 +110,9 @@ class Going final : public ActivityWith<Memory> {
     // Paths of this step so far were planned when the program began, in an earlier round of a
     // repeat, or for an earlier station of a job, which is another target.
     for (const PlannedPath& ahead : place_.paths)
-      if (ahead.step == place_.step && arrived(ahead.path.at(ahead.path.length())))
-        m.path = ahead.path, m.plans = 1;
+      if (ahead.step == place_.step && ends_at_goal(ahead.path)) m.path = ahead.path, m.plans = 1;
+    // At the goal a turn is enough.
+    if (goal_distance(at) <= step_.tolerance && can_turn_to(at, step_.heading)) m.plans = 0;
     if (m.plans == 0 || arrived(at)) return;
     const PlanePose& from = m.path.start();
     // `remainder` leaves a turn in -pi to pi, so that whole turns do not count.
@@ -110,10 +121,10 @@ class Going final : public ActivityWith<Memory> {
     if (!path_is_clear(0))
       place_.note(
           "the ground or a body on its path has changed since its program began: planning again");
-    else if (aside > kElsewhere || turned > kElsewhereTurn)
+    else if (aside > kElsewhere || (turned > kElsewhereTurn && !can_turn_to(at, from.yaw)))
       place_.note("it stands " + metres(aside) + " from where it was to begin: it plans anew");
     else
-      start_path(at);
+      follow(at);
   }
 
   std::vector<Measurement> account(const Observation& seen) const override {
@@ -137,6 +148,9 @@ class Going final : public ActivityWith<Memory> {
       case kPlan:
         // A step that begins at its goal ends without driving.
         return arrived(at) ? true : plan(seen, at);
+      case kSpin:
+        spin(at, out);
+        return false;
       case kTurn:
         if (phase_time() >= m.turn) drive_leg(at);
         return false;
@@ -176,15 +190,20 @@ class Going final : public ActivityWith<Memory> {
       return fall_short(StepState::kOutOfTime, "not there after " + std::to_string(kMostPlans) +
                                                    " plans, " + metres(goal_distance(at)) +
                                                    " from the target");
+    if (goal_distance(at) <= step_.tolerance && can_turn_to(at, step_.heading)) {
+      begin_spin(at, step_.heading, Then::kPlanAnew);
+      return false;
+    }
+    // Each search has another seed: where one has found nothing, the next may.
+    const PathQuery query = step_.query(at, static_cast<int>(m.plans + m.failed));
     const std::optional<Path> path =
-        // Each search has another seed: where one has found nothing, the next may.
-        place_.planner->plan(step_.query(at, static_cast<int>(m.plans + m.failed)));
+        m.spins ? plan_path(*place_.planner, place_.machine, query) : place_.planner->plan(query);
     if (path) {
       ++m.plans;
       m.failed = 0;
       m.path = *path;
       place_.paths.push_back({place_.step, place_.now, *path});
-      start_path(at);
+      follow(at);
       return false;
     }
     ++m.failed;
@@ -212,6 +231,39 @@ class Going final : public ActivityWith<Memory> {
     return out + (m.failed > 1
                       ? ", try " + std::to_string(m.failed) + " of " + std::to_string(step_.tries)
                       : "");
+  }
+
+  // Turn on the spot.
+  bool spins() const { return m.spins && turns_in_place(place_.machine); }
+  bool can_turn_to(const PlanePose& at, double heading) const {
+    return spins() && can_turn(*place_.planner, at, heading, step_.clearance);
+  }
+  bool ends_at_goal(const Path& path) const {
+    const PlanePose end = path.at(path.length());
+    return spins() ? goal_distance(end) <= step_.tolerance : arrived(end);
+  }
+  /// Drives the path, after a turn to its first heading.
+  void follow(const PlanePose& at) {
+    const double heading = m.path.start().yaw;
+    if (spins() && std::abs(std::remainder(heading - at.yaw, 2 * kPi)) > kTurned)
+      begin_spin(at, heading, Then::kStartPath);
+    else
+      start_path(at);
+  }
+  void begin_spin(const PlanePose& at, double heading, Then then) {
+    m.heading = heading;
+    m.spin = std::remainder(heading - at.yaw, 2 * kPi);
+    m.then = then;
+    enter(kSpin);
+  }
+  void spin(const PlanePose& at, Command& out) {
+    const double left = std::remainder(m.heading - at.yaw, 2 * kPi);
+    if (std::abs(left) > kTurned && phase_time() < longest_turn(m.spin)) {
+      out.drive = turn_command(left);
+      return;
+    }
+    m.spins = std::abs(left) <= kTurned;
+    stop(m.spins ? m.then : Then::kPlanAnew);
   }
 
   // Path.
@@ -288,6 +340,10 @@ class Going final : public ActivityWith<Memory> {
 
   /// Handles a machine that has come to a stop; returns true when the step is over.
   bool stand(const PlanePose& at) {
+    if (m.then == Then::kStartPath) {
+      start_path(at);
+      return false;
+    }
     const bool anew = m.then == Then::kPlanAnew;
     // A leg that was broken off has not been driven.
     if (!anew) ++m.leg;
@@ -300,6 +356,8 @@ class Going final : public ActivityWith<Memory> {
     m.driven += std::exchange(m.s, 0);
     enter(kPlan);
     if (anew || arrived(at)) return !anew;
+    // The next plan is a turn on the spot.
+    if (spins() && goal_distance(at) <= step_.tolerance) return false;
     if (++m.corrections > kMostCorrections)
       return fall_short(StepState::kOutOfReach, "it stands " + metres(goal_distance(at)) + " and " +
                                                     number_text(degrees(turn_error(at)), "deg") +
