@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "earthwork/station_search.h"
+#include "scene/polygon.h"
 
 namespace navvy::earthwork {
 namespace {
@@ -25,28 +26,19 @@ constexpr double kWorth = 0.3;        // least volume of a cut in the last layer
 // A pass ends so far beyond its last soil [m], or the curl leaves a ramp there; but not above a
 // side so high there [m]: the bucket would be thrown up and lose its load.
 constexpr double kBeyondEdge = 0.6, kHighEdge = 0.25;
+// Where it is square to such a side, it goes on at the depth of the floor so far beyond it [m]: the
+// ramp of the curl lies outside. It begins so far before that end [m], on dug floor if need be, or
+// the bucket has no space to curl.
+constexpr double kBreakOut = 0.3, kCurlSpace = 1.8;
 // A fill has mounds where a load fell: its level is looked at over so many samples at a time.
 constexpr std::size_t kMound = 10;
 constexpr int kAcross = 5;  // places across a strip at which its soil is looked at
 constexpr int kFine = 3;    // directions per strip
-// The sides of the bucket may be so far outside of the pit [m]: a trench is dug one bucket wide.
-constexpr double kOutside = 0.1;
-// But so far [m] where the sides are steeper than this [rad], the floor is not levelled and the pit
-// is this many buckets wide: a strip that ends aslant at a side leaves a triangle inside or digs
-// one outside. tuned: of 15 m3, 10 x 5 x 0.3 m, 0.1 / 0.4 leaves 2.4 / 1.4 and digs 0.1 / 0.6
-// outside.
-constexpr double kOutsideSteep = 0.4, kSteep = radians(75), kWide = 2.5;
 // Height of the stick's line over soil that it must not touch while the bucket goes down beyond it,
 // and how far from the bucket's pin that is looked at [m].
 constexpr double kUnderStick = 0.3, kAlongStick = 1.5;
 // Keys: layers are so far apart, and directions count from the middle of that.
 constexpr std::int64_t kLayerKeys = 1000;
-
-/// Returns how far the sides of a bucket of the width `width` [m] may be outside of a pit [m].
-double outside_of(const control::PitJob& job, const PitShape& pit, double width) {
-  if (job.heap || job.tolerance > 0 || job.area.batter <= kSteep) return kOutside;
-  return pit.width() < kWide * width ? kOutside : kOutsideSteep;
-}
 
 /// Strips of one machine in one pit.
 class Fan {
@@ -61,14 +53,20 @@ class Fan {
         slope_(limits.face ? face_slope(job) : std::numeric_limits<double>::infinity()),
         tolerance_(job.tolerance),
         sector_(limits.sector),
+        aside_(limits.aside),
         worth_above_(limits.worth_above),
-        outside_(outside_of(job, pit, width_)),
+        outside_(limits.outside),
         least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)),
         fills_(job.heap.has_value()) {
     const Pose X_WS = X_WB * reach.arm().X_BS();
     centre_ = X_WS.translation().head<2>();
     ring_ = X_WS.translation().z();
     heading_ = control::plane_pose(X_WB).yaw;
+    if (std::isfinite(aside_)) {
+      const Vec2 side = scene::longest_edge(job.area.polygon);
+      const double along = std::atan2(side.y(), side.x());
+      heading_ = along + std::round((heading_ - along) / (kPi / 2)) * kPi / 2;
+    }
     layers_ = std::max(
         1, static_cast<int>(std::ceil((pit.ground() - pit.lowest()) / job.pass_depth - 1e-9)));
     turn_ = kTouching * width_ / std::max(kFaceBegins, farthest());
@@ -121,6 +119,7 @@ class Fan {
   /// design over the part of the strip that no neighbour digs; nothing outside of the pit.
   std::optional<double> floor(double r, double angle, double layer_z) const {
     const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
+    if (std::abs(r * std::sin(angle - heading_)) > aside_) return std::nullopt;
     const double aside = kAside + std::max(0.0, 0.5 * (width_ - r * turn_));
     double out = std::max(layer_z, pit_.ground() - (r - kFaceBegins) * slope_);
     for (const double t : {-aside, 0.0, aside}) {
@@ -176,7 +175,7 @@ class Fan {
     Strip found;
     control::JobCut& out = found.cut;
     std::vector<double> floors;
-    int first = -1, last = -1;
+    int first = -1, last = -1, inside = -1;
     std::vector<double> soils;
     const double worth = layer == layers_ ? kWorth : worth_above_;
     const int samples = static_cast<int>((reach_.arm().longest() + 2 - kFaceBegins) / kSample);
@@ -187,6 +186,7 @@ class Fan {
       const std::optional<double> z = floor(r, angle, layer_z);
       const double soil = z && r <= reach_.at(*z - ring_).most ? above(r, angle, *z) : 0;
       const bool digs = soil > 0;
+      if (z && r <= reach_.at(*z - ring_).most) inside = k;
       // Where nothing is to be dug, the edge stays on the ground.
       floors.push_back(digs ? *z : z ? std::max(*z, top) : top);
       soils.push_back(digs && soil >= least_soil_ ? soil : 0);
@@ -203,7 +203,13 @@ class Fan {
     if (first < 0 || (last - first) * kSample < kLeastLength || found.volume < worth * capacity_)
       return std::nullopt;
     const bool high = soils[static_cast<std::size_t>(first)] > kHighEdge;
-    const int begin = high ? first : first - beyond(first);
+    int begin = high ? first : first - beyond(first);
+    if (high && std::isfinite(aside_)) {
+      begin = std::max(0, first - static_cast<int>(kBreakOut / kSample));
+      std::fill(floors.begin() + begin, floors.begin() + first,
+                floors[static_cast<std::size_t>(first)]);
+      last = std::max(last, std::min(inside, begin + static_cast<int>(kCurlSpace / kSample)));
+    }
     out.near = centre_ + (kFaceBegins + begin * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
     out.floor.assign(floors.begin() + begin, floors.begin() + last + 1);
@@ -279,7 +285,8 @@ class Fan {
   const PitShape& pit_;
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
-  const double width_, capacity_, slope_, tolerance_, sector_, worth_above_, outside_, least_soil_;
+  const double width_, capacity_, slope_, tolerance_, sector_, aside_, worth_above_, outside_,
+      least_soil_;
   const bool fills_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;

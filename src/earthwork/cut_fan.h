@@ -2,6 +2,7 @@
 // Cuts of a pit from one place of the machine. Private to earthwork.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "control/job_planner.h"
@@ -20,6 +21,11 @@ struct FanLimits {
   /// Least volume of a cut in layers above the last / heaped capacity: the rest waits for the next
   /// layer.
   double worth_above = 0.6;
+  /// Largest distance of a cut from the line straight ahead [m]. If it is finite, that line is
+  /// square to a side of the pit however the machine stands.
+  double aside = std::numeric_limits<double>::infinity();
+  /// Largest distance of the bucket's sides from the pit [m]: a trench is dug one bucket wide.
+  double outside = 0.1;
 };
 
 /// Returns the cuts that are worth a scoop from the pose X_WB of the base link: layer by layer from

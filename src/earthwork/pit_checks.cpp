@@ -18,7 +18,9 @@ using control::place_text;
 
 constexpr double kSpoilClear = 0.5;   // of the dump point from the edge of the pit [m]
 constexpr double kAroundStation = 2;  // from the site's border to a station [m]
-constexpr double kLeastLost = 0.05;   // volume out of reach that is a fault [m3]
+// A machine stands on a windrow whose line is so near to its base link [m].
+constexpr double kOnWindrow = 3;
+constexpr double kLeastLost = 0.05;  // volume out of reach that is a fault [m3]
 
 /// Reports sides that are steeper than the soil stands.
 void check_batter(const control::PitJob& job, const PitShape& pit,
@@ -100,6 +102,14 @@ void check_stations(const control::PitJob& job, const Stations& found, const Sta
   for (std::size_t i = 0; i < found.stations.size(); ++i) {
     const control::JobStation& one = found.stations[i];
     const std::string name = "station " + std::to_string(i + 1);
+    for (const Vec2& p : spoil_points(job)) {
+      if (job.into_beds || (p - one.at.p).norm() > kOnWindrow) continue;
+      faults.push_back(
+          {"dump_at_m", place_text(p),
+           "the spoil would lie where the machine stands at " + name + ", " + place_text(one.at.p),
+           "dump " + metres(kOnWindrow) + " beside it or farther"});
+      break;
+    }
     const Pose X_WS = station_pose(one.at, machine.rise, surface) * machine.arm.X_BS();
     if (spoil_place(job, machine.arm, X_WS, surface)) continue;
     const double away = (job.dump_from - X_WS.translation().head<2>()).norm();

@@ -31,8 +31,8 @@ struct StandingArm {
 /// Appends a fault for each station at which the machine would stand at the border of the site.
 void check_on_site(const std::vector<control::JobStation>& stations,
                    const control::SurfaceView& surface, std::vector<control::JobFault>& faults);
-/// Appends faults of stations: soil that none reaches, stations off the site, and spoil out of
-/// reach.
+/// Appends faults of stations: soil that none reaches, stations off the site or on the spoil,
+/// and spoil out of reach.
 void check_stations(const control::PitJob& job, const Stations& found, const StandingArm& machine,
                     const control::SurfaceView& surface, std::vector<control::JobFault>& faults);
 

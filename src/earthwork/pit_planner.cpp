@@ -11,6 +11,7 @@
 #include "control/reach.h"
 #include "core/error.h"
 #include "earthwork/cut_fan.h"
+#include "earthwork/dig_lanes.h"
 #include "earthwork/fill_planner.h"
 #include "earthwork/heap_plan.h"
 #include "earthwork/pit_checks.h"
@@ -22,9 +23,6 @@
 namespace navvy::earthwork {
 namespace {
 
-/// A pit wider than this [m] is dug in lanes. With a reach of 7 to 8 m a machine in the middle of
-/// its lane gets to both edges some metres ahead.
-constexpr double kLane = 7;
 /// A pit is dug square to its longest edge only if it is so many buckets wide there: shorter cuts
 /// fill none.
 constexpr double kLeastAcross = 2.5;
@@ -62,7 +60,8 @@ class PitPlanner final : public control::JobPlanner {
       return heap_cuts(job, heap_shape(*job.heap, surface), reach_, X_WB, surface);
     if (job.heap) return fill_cuts(job, reach_, X_WB, surface);
     const PitShape pit(job.area, surface);
-    std::vector<control::JobCut> out = cut_fan(job, pit, reach_, X_WB, surface);
+    std::vector<control::JobCut> out =
+        cut_fan(job, pit, reach_, X_WB, surface, lane_limits(job, pit, arm_.bucket().width));
     if (out.empty()) return out;
     const std::optional<Vec2> place = spoil_place(job, arm_, X_WB * arm_.X_BS(), surface);
     // A machine that stands askew dumps where it was to dump.
@@ -83,26 +82,6 @@ class PitPlanner final : public control::JobPlanner {
     std::vector<control::JobFault> faults;
   };
 
-  /// Returns the axes of the lanes along a heading, the one farthest from the spoil first.
-  static std::vector<RetreatAxis> lanes(const control::PitJob& job, const PitShape& pit,
-                                        double heading) {
-    const Vec2 across(-std::sin(heading), std::cos(heading));
-    const auto [low, high] = pit.span(across);
-    Vec2 middle = Vec2::Zero();
-    const std::vector<PitColumn> columns = pit.columns();
-    for (const PitColumn& one : columns) middle += one.p / static_cast<double>(columns.size());
-    const int n = std::max(1, static_cast<int>(std::ceil((high - low) / kLane - 1e-9)));
-    const double width = (high - low) / n + pit.cell();
-    std::vector<RetreatAxis> out;
-    for (int i = 0; i < n; ++i) {
-      const double at = low + (i + 0.5) * (high - low) / n;
-      out.push_back({middle + (at - middle.dot(across)) * across, heading, 0.5 * width});
-    }
-    const double spoil = 0.5 * (job.dump_from + job.dump_to).dot(across);
-    if (spoil < 0.5 * (low + high)) std::reverse(out.begin(), out.end());
-    return out;
-  }
-
   /// Returns the stations along the best of the axes parallel and square to the longest edge: those
   /// that leave the least soil, then those with the fewest faults, such as spoil out of reach, then
   /// the fewest stations, then those whose first one is nearest to the machine.
@@ -116,7 +95,10 @@ class PitPlanner final : public control::JobPlanner {
     Choice best;
     std::array<double, 4> least{};
     for (int i = 0; i < 4; i += narrow ? 2 : 1) {
-      Stations one = find_stations(job, pit, digger, lanes(job, pit, along + i * kPi / 2));
+      const double heading = along + i * kPi / 2, width = arm_.bucket().width;
+      Stations one = find_stations(job, pit, digger, lanes(job, pit, width, heading),
+                                   search_rules(job, pit, width));
+      if (digs_straight(job, pit, width)) sort_in_rows(heading, one.stations);
       std::vector<control::JobFault> faults;
       check_stations(job, one, {arm_, rise}, surface, faults);
       const Vec2 start = X_WB.translation().head<2>();
@@ -138,7 +120,8 @@ class PitPlanner final : public control::JobPlanner {
                   const control::SurfaceView& surface, control::JobPlan& plan) const {
     for (control::JobStation& one : plan.stations)
       one.cuts = static_cast<std::int64_t>(
-          count_strips(job, pit, reach_, station_pose(one.at, rise, surface), surface));
+          count_strips(job, pit, reach_, station_pose(one.at, rise, surface), surface,
+                       lane_limits(job, pit, arm_.bucket().width)));
   }
 
   const control::ArmKinematics arm_;

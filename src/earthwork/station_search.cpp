@@ -9,7 +9,6 @@
 namespace navvy::earthwork {
 namespace {
 
-constexpr double kStep = 0.25;      // between candidates for stations [m]
 constexpr double kFront = 0.3;      // depth of the farthest soil that decides a station [m]
 constexpr double kLeastBack = 0.3;  // a station is so far behind the one before it [m]
 // Soil that is lower is no reason for a station [m]; in a shallow job this share of its depth.
@@ -19,10 +18,12 @@ constexpr double kLeastDepth = 0.1, kLeastShare = 0.3;
 class AxisSearch {
  public:
   AxisSearch(const control::PitJob& job, const PitShape& pit, const Digger& digger,
-             const RetreatAxis& axis)
+             const RetreatAxis& axis, const SearchRules& rules)
       : pit_(pit),
         digger_(digger),
         axis_(axis),
+        rules_(rules),
+        cos_sector_(std::cos(rules.sector)),
         ahead_(std::cos(axis.heading), std::sin(axis.heading)),
         across_(-ahead_.y(), ahead_.x()),
         slope_(face_slope(job)),
@@ -31,14 +32,17 @@ class AxisSearch {
   /// Moves the columns that the axis is for from `open` to its stations.
   void run(std::vector<PitColumn>& open, Stations& out) {
     const auto own = [&](const PitColumn& one) {
-      return std::abs((one.p - axis_.through).dot(across_)) <= axis_.half_width;
+      const double aside = (one.p - axis_.through).dot(across_);
+      return aside >= -axis_.right && aside <= axis_.left;
     };
     const auto middle =
         std::partition(open.begin(), open.end(), [&](const PitColumn& one) { return !own(one); });
     left_.assign(middle, open.end());
     open.erase(middle, open.end());
     double before = std::numeric_limits<double>::infinity();
-    while (drop_thin(), !left_.empty()) {
+    drop_thin();
+    const double least = rules_.least_share * volume();
+    for (; !left_.empty() && volume() > least; drop_thin()) {
       const double place = next_station(before);
       if (std::isnan(place)) {
         give_up_front(out);
@@ -56,6 +60,12 @@ class AxisSearch {
     for (const PitColumn& one : left_) out = std::max(out, along(one));
     return out;
   }
+  /// Returns the volume of what is left [m3].
+  double volume() const {
+    double out = 0;
+    for (const PitColumn& one : left_) out += (one.top - one.floor) * pit_.column_area();
+    return out;
+  }
   void drop_thin() {
     std::erase_if(left_, [this](const PitColumn& one) { return one.top - one.floor < least_; });
   }
@@ -64,7 +74,7 @@ class AxisSearch {
     const Vec2 from = one.p - axis_.through - place * ahead_;
     const double reach = from.norm(), front = from.dot(ahead_);
     // The face ahead of the machine rises from its foot at the angle of the batter.
-    return front >= reach * std::cos(kSector) &&
+    return front >= reach * cos_sector_ &&
            one.top - one.floor <= (reach - kFaceBegins) * slope_ + kLeastDepth &&
            digger_.reach.contains(reach, one.floor - digger_.ring);
   }
@@ -75,7 +85,8 @@ class AxisSearch {
     std::vector<PitColumn> front;
     for (const PitColumn& one : left_)
       if (along(one) >= far - kFront) front.push_back(one);
-    for (double place = far - digger_.reach.arm().longest() - 2; place < far; place += kStep) {
+    for (double place = far - digger_.reach.arm().longest() - 2; place < far;
+         place += rules_.step) {
       if (place > limit) break;
       if (std::all_of(front.begin(), front.end(),
                       [&](const PitColumn& one) { return covers(place, one); }))
@@ -106,7 +117,7 @@ class AxisSearch {
     for (PitColumn& one : left_) {
       const Vec2 from = one.p - axis_.through - place * ahead_;
       const double reach = from.norm();
-      if (reach < kFaceBegins || from.dot(ahead_) < reach * std::cos(kSector)) continue;
+      if (reach < kFaceBegins || from.dot(ahead_) < reach * cos_sector_) continue;
       const double down = std::max(one.floor, one.top - (reach - kFaceBegins) * slope_);
       if (!digger_.reach.contains(reach, down - digger_.ring)) continue;
       station.volume += (one.top - down) * pit_.column_area();
@@ -118,6 +129,8 @@ class AxisSearch {
   const PitShape& pit_;
   const Digger& digger_;
   const RetreatAxis& axis_;
+  const SearchRules& rules_;
+  const double cos_sector_;
   const Vec2 ahead_, across_;
   const double slope_, least_;
   std::vector<PitColumn> left_;
@@ -130,10 +143,10 @@ double face_slope(const control::PitJob& job) {
 }
 
 Stations find_stations(const control::PitJob& job, const PitShape& pit, const Digger& digger,
-                       const std::vector<RetreatAxis>& axes) {
+                       const std::vector<RetreatAxis>& axes, const SearchRules& rules) {
   Stations out;
   std::vector<PitColumn> open = pit.columns();
-  for (const RetreatAxis& axis : axes) AxisSearch(job, pit, digger, axis).run(open, out);
+  for (const RetreatAxis& axis : axes) AxisSearch(job, pit, digger, axis, rules).run(open, out);
   return out;
 }
 

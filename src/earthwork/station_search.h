@@ -23,7 +23,7 @@ double face_slope(const control::PitJob& job);
 struct RetreatAxis {
   Vec2 through = Vec2::Zero();  ///< a point of the line in W [m]
   double heading = 0;           ///< heading of the machine, which faces the soil [rad]
-  double half_width = 0;        ///< columns farther aside belong to other axes [m]
+  double right = 0, left = 0;   ///< columns farther aside belong to other axes [m]
 };
 
 /// Stations along axes, with the columns that none of them reaches.
@@ -40,10 +40,18 @@ struct Digger {
   double axle_ahead = 0;  ///< distance of the swing axis ahead of the rear axle [m]
 };
 
+/// Rules of a search.
+struct SearchRules {
+  double sector = kSector;  ///< sector in which a machine digs, to both sides [rad]
+  double step = 0.25;       ///< between candidates for stations [m]
+  /// Soil that is less than this share of what belongs to an axis is no reason for a station [-].
+  double least_share = 0;
+};
+
 /// Returns the stations from which all columns of a pit are dug, one axis after the other. At each
 /// station the machine stands as far back as the farthest soil that is left allows, so that few
 /// stations suffice.
 Stations find_stations(const control::PitJob& job, const PitShape& pit, const Digger& digger,
-                       const std::vector<RetreatAxis>& axes);
+                       const std::vector<RetreatAxis>& axes, const SearchRules& rules = {});
 
 }  // namespace navvy::earthwork

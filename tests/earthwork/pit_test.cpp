@@ -99,6 +99,102 @@ TEST(PitPlan, CutsRunOutBeyondTheNearEdge) {
     EXPECT_LT(cut.floor.front(), -0.3);
 }
 
+constexpr double kSteepY = -4;  // of the middle of a steep pit [m]
+
+/// A pit with vertical sides, and a windrow behind a machine that digs it from y > 0.
+DigArea steep(double length, double width, double depth) {
+  DigArea out = pit(length, width, depth, 90);
+  for (Vec2& corner : out.polygon) corner.y() += kSteepY;
+  out.dump_at = Vec2(-8, 9.5);
+  out.dump_to = Vec2(8, 9.5);
+  return out;
+}
+
+TEST(PitPlan, DigsSteepSidesInLanesSquareToThem) {
+  const DigArea step = steep(6, 3, 0.5);
+  const JobPlan plan = plan_of(step);
+  EXPECT_EQ(text_of(plan), "");
+  ASSERT_EQ(plan.stations.size(), 3u);
+  const double half = 0.5 * control::testing::ew180_like().buckets[0].width;
+  std::vector<double> places;
+  double sum = 0;
+  for (const control::JobStation& one : plan.stations) {
+    EXPECT_NEAR(std::abs(std::remainder(one.at.yaw, 2 * kPi)), 0.5 * kPi, 1e-9);
+    // It stands outside, on ground that is not dug.
+    EXPECT_GT(std::abs(one.at.p.y() - kSteepY), 1.5 + 2);
+    places.push_back(one.at.p.x());
+    sum += one.volume;
+  }
+  std::sort(places.begin(), places.end());
+  // In line with the sides, and between them.
+  EXPECT_NEAR(places[0], -3 + half, 0.06);
+  EXPECT_NEAR(places[1], 0, 0.06);
+  EXPECT_NEAR(places[2], 3 - half, 0.06);
+  EXPECT_NEAR(sum, plan.volume, 0.07 * plan.volume);
+  // A trench one bucket wide, and a floor that is levelled, are dug along their length.
+  for (const control::JobStation& one : plan_of(pit(6, 1, 0.5, 90)).stations)
+    EXPECT_NEAR(std::sin(one.at.yaw), 0, 1e-9);
+}
+
+TEST(PitPlan, CutsOfSteepSidesAreSquareHoweverTheMachineStands) {
+  const heightfield::Ground ground = control::testing::flat_ground();
+  const control::GroundSurfaceView surface(ground);
+  const auto planner = job_planners()(control::testing::ew180_like());
+  const DigArea step = steep(6, 3, 0.5);
+  // Askew by 4 deg, at the station of the lane in the middle.
+  const JobPlan plan = plan_of(step);
+  const auto middle = std::min_element(
+      plan.stations.begin(), plan.stations.end(),
+      [](const auto& a, const auto& b) { return std::abs(a.at.p.x()) < std::abs(b.at.p.x()); });
+  ASSERT_NE(middle, plan.stations.end());
+  const double side = std::copysign(1.0, middle->at.p.y() - kSteepY);
+  const Pose X_WB =
+      make_pose(middle->at.p.x(), middle->at.p.y(), 0, 0, 0, middle->at.yaw + radians(4));
+  const std::vector<control::JobCut> cuts = planner->cuts(step.job(), X_WB, surface);
+  ASSERT_FALSE(cuts.empty());
+  double least = 1;
+  for (const control::JobCut& cut : cuts) {
+    const Vec2 line = (cut.near - cut.far).normalized();
+    const bool square = std::abs(line.x()) < 1e-3;
+    least = std::min(least, std::abs(line.x()));
+    // Within the lane.
+    EXPECT_LE(std::max(std::abs(cut.near.x()), std::abs(cut.far.x())), 1.9);
+    // They go on beyond the near side at the depth of their layer.
+    EXPECT_LT(cut.floor.front(), -0.24);
+    EXPECT_GT(side * (cut.near.y() - kSteepY), 1.5);
+    if (square) EXPECT_NEAR(side * (cut.far.y() - kSteepY), -1.5, 0.15);
+  }
+  EXPECT_LT(least, 1e-3) << "one is square to the sides";
+}
+
+TEST(PitPlan, DigsLongSteepPitsRowByRow) {
+  // Longer than the reach in both directions: no station stands on dug ground.
+  DigArea step = steep(9, 8, 0.4);
+  step.dump_at = Vec2(-11.5, -9);
+  step.dump_to = Vec2(-11.5, 9);
+  const JobPlan plan = plan_of(step);
+  ASSERT_GT(plan.stations.size(), 3u);
+  const double yaw = plan.stations.front().at.yaw;
+  const Vec2 ahead(std::cos(yaw), std::sin(yaw));
+  double last = 1e9;
+  for (const control::JobStation& one : plan.stations) {
+    EXPECT_EQ(one.at.yaw, yaw);
+    EXPECT_LE(one.at.p.dot(ahead), last + 1);
+    last = one.at.p.dot(ahead);
+  }
+}
+
+TEST(PitPlan, NamesSpoilWhereTheMachineStands) {
+  DigArea step = steep(6, 3, 0.5);
+  // Both sides of the pit.
+  step.dump_at = Vec2(-3, 3.5);
+  step.dump_to = Vec2(3, 3.5);
+  const std::string text = text_of(plan_of(step));
+  EXPECT_TRUE(text.find("the spoil would lie where the machine stands") != std::string::npos ||
+              text.find("nowhere on the windrow") != std::string::npos)
+      << text;
+}
+
 TEST(PitPlan, DependsOnItsArgumentsAlone) {
   const heightfield::Ground ground = control::testing::flat_ground();
   const control::GroundSurfaceView surface(ground);

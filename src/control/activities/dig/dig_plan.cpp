@@ -257,7 +257,9 @@ int DigPlan::run_up(const SurfaceView& surface, int i, double level, double leas
   // Back over the floor of the slice and what lies thin on it; undiggable soil ends it.
   const double least_start = std::max(kLeastRun, hindered ? 0 : at(i) + kTurnRun);
   for (; i + 1 < samples() && at(i) < least_start - 1e-9; ++i)
-    if (height(surface, at(i + 1)) > start_[static_cast<std::size_t>(i + 1)] - level + least) break;
+    if (height(surface, at(i + 1)) >
+        start_[static_cast<std::size_t>(i + 1)] - std::min(level, floor_depth(i + 1)) + least)
+      break;
   return i;
 }
 
