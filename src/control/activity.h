@@ -36,12 +36,18 @@ struct Handover {
   /// Commanded angles of the arm [rad]. A move of the arm starts from these, not from the measured
   /// angles, so that the arm does not drift under load.
   Axes q{};
+  /// Position of the swing joint at which the present load was dug [rad], and 1 from then until the
+  /// bucket returns for the next one, else 0.
+  double dug_at = 0;
+  std::int64_t dumps = 0;
 
   /// Saves or loads all fields.
   void visit(Archive& a) {
     a("cycles", cycles);
     a("known", known);
     a("q", q);
+    a("dug_at", dug_at);
+    a("dumps", dumps);
   }
 };
 

@@ -22,14 +22,16 @@ constexpr double kAside = 0.04;
 // Soil above the floor at the ends of a cut [m]; in a shallow job this share of its depth.
 constexpr double kLeastSoil = 0.1, kLeastShare = 0.3;
 constexpr double kLeastLength = 0.8;  // of a cut [m]
-constexpr double kWorth = 0.3;        // least volume of a cut in the last layer / heaped capacity
 // A pass ends so far beyond its last soil [m], or the curl leaves a ramp there; but not above a
 // side so high there [m]: the bucket would be thrown up and lose its load.
 constexpr double kBeyondEdge = 0.6, kHighEdge = 0.25;
 // Where it is square to such a side, it goes on at the depth of the floor so far beyond it [m]: the
 // ramp of the curl lies outside. It begins so far before that end [m], on dug floor if need be, or
 // the bucket has no space to curl.
-constexpr double kBreakOut = 0.3, kCurlSpace = 1.8;
+constexpr double kBreakOut = 0.6, kCurlSpace = 2.1;
+// It begins so far beyond a side that it meets at its far end [m]: the bucket keeps clear of the
+// end of a cut.
+constexpr double kFarOut = 0.2;
 // A fill has mounds where a load fell: its level is looked at over so many samples at a time.
 constexpr std::size_t kMound = 10;
 constexpr int kAcross = 5;  // places across a strip at which its soil is looked at
@@ -55,6 +57,7 @@ class Fan {
         sector_(limits.sector),
         aside_(limits.aside),
         worth_above_(limits.worth_above),
+        worth_last_(limits.worth_last),
         outside_(limits.outside),
         least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)),
         fills_(job.heap.has_value()) {
@@ -177,7 +180,7 @@ class Fan {
     std::vector<double> floors;
     int first = -1, last = -1, inside = -1;
     std::vector<double> soils;
-    const double worth = layer == layers_ ? kWorth : worth_above_;
+    const double worth = layer == layers_ ? worth_last_ : worth_above_;
     const int samples = static_cast<int>((reach_.arm().longest() + 2 - kFaceBegins) / kSample);
     for (int k = 0; k <= samples; ++k) {
       const double r = kFaceBegins + k * kSample;
@@ -209,6 +212,7 @@ class Fan {
       std::fill(floors.begin() + begin, floors.begin() + first,
                 floors[static_cast<std::size_t>(first)]);
       last = std::max(last, std::min(inside, begin + static_cast<int>(kCurlSpace / kSample)));
+      if (last == inside) last = far_out(floors, last);
     }
     out.near = centre_ + (kFaceBegins + begin * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
@@ -217,6 +221,17 @@ class Fan {
     out.key = layer * kLayerKeys + i + kLayerKeys / 2;
     out.worth = worth;
     return found;
+  }
+
+  /// Returns the last sample of a strip that goes on beyond its last one inside the pit, `last`, at
+  /// the same floor, as far as the arm reaches.
+  int far_out(std::vector<double>& floors, int last) const {
+    const double z = floors[static_cast<std::size_t>(last)];
+    int out = last;
+    while (out < last + static_cast<int>(kFarOut / kSample) &&
+           kFaceBegins + (out + 1) * kSample <= reach_.at(z - ring_).most)
+      floors[static_cast<std::size_t>(++out)] = z;
+    return out;
   }
 
   /// Returns by how many samples a cut whose soil begins at the sample `first` ends nearer.
@@ -285,8 +300,8 @@ class Fan {
   const PitShape& pit_;
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
-  const double width_, capacity_, slope_, tolerance_, sector_, aside_, worth_above_, outside_,
-      least_soil_;
+  const double width_, capacity_, slope_, tolerance_, sector_, aside_, worth_above_, worth_last_,
+      outside_, least_soil_;
   const bool fills_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;

@@ -21,6 +21,8 @@ struct FanLimits {
   /// Least volume of a cut in layers above the last / heaped capacity: the rest waits for the next
   /// layer.
   double worth_above = 0.6;
+  /// The same in the last layer.
+  double worth_last = 0.3;
   /// Largest distance of a cut from the line straight ahead [m]. If it is finite, that line is
   /// square to a side of the pit however the machine stands.
   double aside = std::numeric_limits<double>::infinity();

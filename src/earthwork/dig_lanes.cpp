@@ -25,6 +25,8 @@ constexpr double kStraightStep = 0.05, kStraightLeast = 0.06;
 // side leaves a triangle inside or digs one outside. tuned: of 15 m3, 10 x 5 x 0.3 m in one wide
 // lane, 0.1 / 0.4 leaves 2.4 / 1.4 and digs 0.1 / 0.6 outside.
 constexpr double kOutside = 0.4;
+// Least volume of a cut in the last layer / heaped capacity: what lies between lanes is taken too.
+constexpr double kStraightWorth = 0.15;
 // An edge is parallel to a heading up to this sine.
 constexpr double kParallel = 0.1;
 // Stations are in one row if they are at most so far apart along the heading [m].
@@ -111,6 +113,8 @@ FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bu
   out.sector = kStraightSector;
   out.aside = 0.5 * kStraightLane + kOverlap;
   out.outside = kOutside;
+  // Passes of a truck are to be full.
+  if (!job.into_beds) out.worth_last = kStraightWorth;
   return out;
 }
 

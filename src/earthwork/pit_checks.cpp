@@ -18,8 +18,8 @@ using control::place_text;
 
 constexpr double kSpoilClear = 0.5;   // of the dump point from the edge of the pit [m]
 constexpr double kAroundStation = 2;  // from the site's border to a station [m]
-// A machine stands on a windrow whose line is so near to its base link [m].
-constexpr double kOnWindrow = 3;
+// Half the length and width of a machine, and of the foot of a windrow [m].
+constexpr double kHalfLength = 2.4, kHalfWidth = 1.4, kHalfWindrow = 1.8;
 constexpr double kLeastLost = 0.05;  // volume out of reach that is a fault [m3]
 
 /// Reports sides that are steeper than the soil stands.
@@ -41,6 +41,13 @@ void check_batter(const control::PitJob& job, const PitShape& pit,
                     "'" + soil.name + "' stands at that angle up to " + metres(height) + ", at " +
                         place_text(corner) + " the pit is " + metres(depth) + " deep",
                     "at most " + number_text(std::floor(degrees(flatter)), "deg")});
+}
+
+/// Returns true if a machine at `at` stands on a windrow through the point `p`.
+bool stands_on(const control::PlanePose& at, const Vec2& p) {
+  const Vec2 ahead(std::cos(at.yaw), std::sin(at.yaw)), line = p - at.p;
+  return std::abs(line.dot(ahead)) < kHalfLength + kHalfWindrow &&
+         std::abs(ahead.x() * line.y() - ahead.y() * line.x()) < kHalfWidth + kHalfWindrow;
 }
 
 }  // namespace
@@ -103,11 +110,12 @@ void check_stations(const control::PitJob& job, const Stations& found, const Sta
     const control::JobStation& one = found.stations[i];
     const std::string name = "station " + std::to_string(i + 1);
     for (const Vec2& p : spoil_points(job)) {
-      if (job.into_beds || (p - one.at.p).norm() > kOnWindrow) continue;
+      if (job.into_beds || !stands_on(one.at, p)) continue;
       faults.push_back(
           {"dump_at_m", place_text(p),
            "the spoil would lie where the machine stands at " + name + ", " + place_text(one.at.p),
-           "dump " + metres(kOnWindrow) + " beside it or farther"});
+           "dump " + metres(kHalfWidth + kHalfWindrow) + " beside it, or " +
+               metres(kHalfLength + kHalfWindrow) + " behind it"});
       break;
     }
     const Pose X_WS = station_pose(one.at, machine.rise, surface) * machine.arm.X_BS();

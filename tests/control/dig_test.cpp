@@ -118,6 +118,56 @@ TEST(Dig, SwingsBackOverAHeapBetweenTheDumpAndTheTrench) {
   EXPECT_EQ(least(), before);
 }
 
+TEST(Dig, SwingsBackTheWayItCame) {
+  // From a place behind the machine the shorter arc to the next line goes on around.
+  const Vec2 axis(1.25, 0);
+  const auto at = [&](double r, double deg) {
+    return Vec2(axis + r * Vec2(std::cos(radians(deg)), std::sin(radians(deg))));
+  };
+  std::vector<scene::ProgramStep> steps;
+  for (const double deg : {20.0, -20.0}) {
+    Dig dig = trench();
+    dig.from = at(7.2, deg);
+    dig.to = at(4.6, deg);
+    dig.dump_at = at(5.9, 184);
+    dig.max_cycles = 1;
+    steps.push_back(dig);
+  }
+  DigRig rig(ew180_like(), program(std::move(steps)), make_pose(0, 0, 0));
+  const int swing = ArmKinematics(ew180_like()).swing_joint();
+  double most = 0;
+  while (rig.time < 120 && !rig.op.ended()) {
+    rig.step();
+    most = std::max(most, std::abs(rig.engine->joint(0, swing).position));
+  }
+  EXPECT_EQ(rig.cycles.size(), 2u);
+  EXPECT_GT(most, radians(180));
+  EXPECT_LT(most, radians(188));
+}
+
+TEST(Dig, ComesOverTheTailOfABedBehindTheMachine) {
+  for (const double front : {-1.0, 1.0}) {
+    Dig dig = trench();
+    dig.from = Vec2(8.2, 0);
+    dig.to = Vec2(5.6, 0);
+    dig.dump_at = Vec2(1.25 - 5.9, 0.3);
+    dig.spread = Vec2(0, 0.7 * front);
+    dig.max_cycles = 1;
+    DigRig rig(ew180_like(), program({dig}), make_pose(0, 0, 0));
+    const int swing = ArmKinematics(ew180_like()).swing_joint();
+    double least = 0, most = 0;
+    while (rig.time < 60 && !rig.op.ended()) {
+      rig.step();
+      least = std::min(least, rig.engine->joint(0, swing).position);
+      most = std::max(most, rig.engine->joint(0, swing).position);
+    }
+    EXPECT_EQ(rig.cycles.size(), 1u);
+    // Swinging to the left it passes from y > 0 to y < 0.
+    EXPECT_GT(front < 0 ? most : -least, radians(170)) << front;
+    EXPECT_LT(front < 0 ? -least : most, radians(10)) << front;
+  }
+}
+
 TEST(Dig, CurlsOnlyNearTheDiggingAngle) {
   // Soil in the mouth of a bucket that is lowered along the far end looks like a load. A curl from
   // there would press the heel into the wall.

@@ -230,7 +230,8 @@ bool AreaDigging::brought_little(const Observation& seen) const {
   const auto cycles = static_cast<double>(place_.handover.cycles - m.cycles);
   const scene::Soil soil = surface_soil(*seen.ground, 0.5 * (m.cut.near + m.cut.far));
   const double full = place_.arm->bucket().capacity / soil.swell * soil.bank_density;
-  return m.brought <= kLittle * cycles * full;
+  const double little = m.cut.worth > 0 ? std::min(kLittle, m.cut.worth) : kLittle;
+  return m.brought <= little * cycles * full;
 }
 
 void AreaDigging::end_cut(const Observation& seen, bool failed, const std::string& reason) {

@@ -42,6 +42,9 @@ constexpr int kMostEmpty = 3;  // empty scoops in a row that end the dig
 constexpr double kDrip = 0.003, kStill = 0.2, kDripPatience = 1.5;
 constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
 constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
+// The bucket comes over the tail of a bed that lies so much along its way [-], if the bed is no
+// more than this aside of straight behind it [rad]; elsewhere the other arc would be far longer.
+constexpr double kLengthwise = 0.5, kBehind = radians(60);
 constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
 // A scoop's start may be this far out of reach [m]; drives end 0.15 m off.
 constexpr double kBeyond = 0.3;
@@ -168,7 +171,11 @@ void Digging::go_to_scoop(Phase next, const Observation& seen) {
     return next == kReturn ? plan_.highest_beside(surface, m.s) : surface.height(p.x(), p.y());
   });
   const double z = std::max(ground, plan_.floor_height(m.s, m.scoop_level)) + kClear;
-  const Axes to = m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge));
+  Axes to = m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge));
+  // The bucket returns the way it came, where it met nothing: on the shorter arc from a place
+  // behind the machine it would meet the cab of a truck.
+  if (next == kReturn && std::exchange(place_.handover.dumps, 0) != 0 && !arm_.swing_limited())
+    to[0] = place_.handover.dug_at + std::remainder(to[0] - place_.handover.dug_at, 2 * kPi);
   const double turn = std::min(swing_acceleration(place_, {to[1], to[2], to[3]}, 0, seen),
                                swing_acceleration(place_, place_.arm_angles(), 0, seen));
   m.move.start(place_, to, seen, {1.0, kArmAfterSwing, turn, false});
@@ -239,17 +246,26 @@ double Digging::heap_at(const Observation& seen, const Vec2& p) {
   return with_surface(seen, [&](const SurfaceView& surface) { return heap_height(surface, p); });
 }
 
+double Digging::arc_to(double swing, const Vec2& out) const {
+  // With limits there is only one.
+  if (arm_.swing_limited()) return swing;
+  const double from = place_.handover.q[0], turn = std::remainder(swing - from, 2 * kPi);
+  // A swing to the left moves the bucket along a bed towards its front if this is positive.
+  const double ahead = Vec2(-out.y(), out.x()).normalized().dot(dig_.spread.normalized());
+  const bool over_cab = std::abs(ahead) > kLengthwise && (ahead > 0) != (turn > 0);
+  if (!over_cab || kPi - std::abs(turn) > kBehind) return from + turn;
+  return from + turn - std::copysign(2 * kPi, turn);
+}
+
 void Digging::start_carry(const Observation& seen) {
   Vec2 place = dump_place(seen);
   const Pose X_WS = m.stance.swing_frame(arm_);
   // The heap grows from cycle to cycle: the bucket opens over its present height.
   const ArmAngles q = opening_pose(seen, X_WS, place);
   const SwingPoint over = swing_point(X_WS, Vec3(place.x(), place.y(), heap_at(seen, place)));
-  // Take the shorter arc; with limits, the only one.
-  const double swing =
-      arm_.swing_limited()
-          ? over.swing
-          : place_.handover.q[0] + std::remainder(over.swing - place_.handover.q[0], 2 * kPi);
+  const double swing = arc_to(over.swing, place - X_WS.translation().head<2>());
+  place_.handover.dug_at = place_.handover.q[0];
+  place_.handover.dumps = 1;
   const double turn = std::min(swing_acceleration(place_, q, seen.payload, seen),
                                swing_acceleration(place_, place_.arm_angles(), seen.payload, seen));
   m.move.start(place_, with_arm(swing, q), seen, {1.2, 0, turn, true});
