@@ -3,18 +3,22 @@
 """Writes a scene that digs a plan map: the arrays `images`, `occupancy` and `dumpability` that
 excavation planners of the Terra kind read and `navvy map --format terra` writes.
 
-Each patch of cells to be dug becomes a dig_area. Its spoil goes to a windrow beside it, on cells
-that may be dumped on, which `navvy check` accepts. Occupied cells become walls.
+Each patch of cells to be dug becomes a dig_area; with steep sides each rectangle of it, as these are
+dug from beside them. The spoil goes to a windrow beside it, on cells that may be dumped on, which
+`navvy check` accepts and for which the machine stands least often. Occupied cells become walls.
 
     python3 dig_plan_map.py FOLDER --number 1 --cell 1 --depth 1 --out plan.sdf
     navvy run plan.sdf
 """
-import argparse, itertools, os, pathlib, subprocess, sys
+import argparse, itertools, os, pathlib, re, subprocess, sys
 import numpy
 
-# Distances of a windrow from the edge of its patch, and of its ends from the ends of it [m].
-ASIDE = (3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0)
+# Distances of a windrow from the edge of its patch, the larger ones behind a machine that digs it
+# from beside, and of its ends from the ends of it [m].
+ASIDE = (3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 8.0, 8.5, 9.0, 9.5, 10.0, 10.5)
 BEHIND = 8.0
+# Sides that are steeper are dug square to them [deg].
+STEEP = 75
 # Free ground around the machine at the start [m].
 AROUND = 4.0
 
@@ -45,6 +49,28 @@ def patches(mask):
                     left[at] = False
                     todo.append(at)
         yield patch
+
+
+def rectangles(patch):
+    """Yields rectangles that cover a patch, the largest first, each as a mask."""
+
+    def within(left):
+        for y0, x0 in numpy.argwhere(left):
+            width = left.shape[1]
+            for y1 in range(y0, left.shape[0]):
+                free = left[y1, x0:]
+                width = min(width, len(free) if free.all() else int(numpy.argmin(free)))
+                if not width:
+                    break
+                yield width * (y1 + 1 - y0), y0, y1 + 1, x0, x0 + width
+
+    left = patch.copy()
+    while left.any():
+        _, y0, y1, x0, x1 = max(within(left))
+        one = numpy.zeros_like(patch)
+        one[y0:y1, x0:x1] = True
+        left &= ~one
+        yield one
 
 
 def outline(patch):
@@ -167,13 +193,15 @@ def scene(shape, steps, start, boxes, options):
 """
 
 
-def is_sound(text, options):
-    """Writes the scene and asks `navvy check`; returns what it says if that is an error."""
+def stations(text, options):
+    """Writes the scene and asks `navvy check`. Returns how often the machine stands, and what is
+    said if that is an error."""
     pathlib.Path(options.out).write_text(text)
     done = subprocess.run(
         [options.navvy, "check", options.out], capture_output=True, text=True, check=False
     )
-    return "" if done.returncode == 0 else done.stdout + done.stderr
+    said = done.stdout + done.stderr
+    return len(re.findall(r": station \d+ at", said)), "" if done.returncode == 0 else said
 
 
 def main():
@@ -200,16 +228,19 @@ def main():
     may_dump &= (image == 1) if (image == 1).any() else ~dig
     boxes, steps = walls(occupied, options.cell), []
     start = free_place(occupied | dig | (image == 1), options.cell)
-    for patch in patches(dig):
-        corners, fault = outline(patch), "nothing beside it may be dumped on"
+    steep = options.batter > STEEP
+    for patch in itertools.chain(*(rectangles(p) if steep else [p] for p in patches(dig))):
+        corners, fault, found = outline(patch), "nothing beside it may be dumped on", []
         for line in windrows(corners, may_dump, options.cell):
             text = scene(image.shape, steps + [(corners, line)], start, boxes, options)
-            fault = is_sound(text, options)
+            count, fault = stations(text, options)
             if not fault:
-                steps.append((corners, line))
-                break
-        else:
+                found.append((count, line))
+        if not found:
             sys.exit(f"no windrow suits the dig with corners {corners}: {fault}")
+        # Of those with the fewest stations the nearest.
+        steps.append((corners, min(found, key=lambda one: one[0])[1]))
+    stations(scene(image.shape, steps, start, boxes, options), options)
     print(f"{options.out}: {len(steps)} digs; run it with: {options.navvy} run {options.out}")
 
 
