@@ -53,7 +53,7 @@ class Fan {
         width_(reach.arm().bucket().width),
         capacity_(reach.arm().bucket().capacity),
         slope_(limits.face ? face_slope(job) : std::numeric_limits<double>::infinity()),
-        tolerance_(job.tolerance),
+        tolerance_(limits.tolerance > 0 ? limits.tolerance : job.tolerance),
         sector_(limits.sector),
         aside_(limits.aside),
         worth_above_(limits.worth_above),
@@ -286,8 +286,13 @@ class Fan {
     const int length = last - first;
     if (first < 0 || length * kSample < kLeastLength || worst_mean(squares) <= tolerance_)
       return std::nullopt;
-    const int more = beyond(first);
-    floors.insert(floors.begin(), before.end() - more, before.end());
+    const bool square = std::isfinite(aside_);
+    const int more =
+        square ? std::min(first, static_cast<int>(kBreakOut / kSample)) : beyond(first);
+    if (square)
+      floors.insert(floors.begin(), static_cast<std::size_t>(more), floors.front());
+    else
+      floors.insert(floors.begin(), before.end() - more, before.end());
     out.near = centre_ + (kFaceBegins + (first - more) * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
     out.floor = std::move(floors);

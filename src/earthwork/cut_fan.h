@@ -26,15 +26,18 @@ struct FanLimits {
   /// Largest distance of a cut from the line straight ahead [m]. If it is finite, that line is
   /// square to a side of the pit however the machine stands.
   double aside = std::numeric_limits<double>::infinity();
+  /// Deviation (rms) from the design above which a strip is levelled at the end [m]; 0: that of the
+  /// job.
+  double tolerance = 0;
   /// Largest distance of the bucket's sides from the pit [m]: a trench is dug one bucket wide.
   double outside = 0.1;
 };
 
 /// Returns the cuts that are worth a scoop from the pose X_WB of the base link: layer by layer from
-/// the top, in each layer the strip with the most soil first; then, for a job with a tolerance, the
-/// strips that deviate by more from the design. Directions are a third of those closer at which
-/// strips touch at the farthest soil, so that a strip fits what others have left between them.
-/// Places of spoil are not filled in.
+/// the top, in each layer the strip with the most soil first; then, with a tolerance, the strips
+/// that deviate by more from the design. Directions are a third of those closer at which strips
+/// touch at the farthest soil, so that a strip fits what others have left between them. Places of
+/// spoil are not filled in.
 std::vector<control::JobCut> cut_fan(const control::PitJob& job, const PitShape& pit,
                                      const ArmReach& reach, const Pose& X_WB,
                                      const control::SurfaceView& surface,

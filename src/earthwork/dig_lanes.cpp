@@ -27,6 +27,8 @@ constexpr double kStraightStep = 0.05, kStraightLeast = 0.06;
 constexpr double kOutside = 0.4;
 // Least volume of a cut in the last layer / heaped capacity: what lies between lanes is taken too.
 constexpr double kStraightWorth = 0.15;
+// Deviation (rms) above which a strip is levelled at the end [m].
+constexpr double kStraightTolerance = 0.04;
 // An edge is parallel to a heading up to this sine.
 constexpr double kParallel = 0.1;
 // Stations are in one row if they are at most so far apart along the heading [m].
@@ -114,7 +116,10 @@ FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bu
   out.aside = 0.5 * kStraightLane + kOverlap;
   out.outside = kOutside;
   // Passes of a truck are to be full.
-  if (!job.into_beds) out.worth_last = kStraightWorth;
+  if (!job.into_beds) {
+    out.worth_last = kStraightWorth;
+    out.tolerance = kStraightTolerance;
+  }
   return out;
 }
 
