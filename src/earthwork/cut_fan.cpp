@@ -56,6 +56,7 @@ class Fan {
         tolerance_(limits.tolerance > 0 ? limits.tolerance : job.tolerance),
         sector_(limits.sector),
         aside_(limits.aside),
+        nearest_(limits.nearest),
         worth_above_(limits.worth_above),
         worth_last_(limits.worth_last),
         outside_(limits.outside),
@@ -187,9 +188,10 @@ class Fan {
       const Vec2 p = centre_ + r * along;
       const double top = surface_.height(p.x(), p.y());
       const std::optional<double> z = floor(r, angle, layer_z);
-      const double soil = z && r <= reach_.at(*z - ring_).most ? above(r, angle, *z) : 0;
+      const bool reached = z && r >= nearest_ && r <= reach_.at(*z - ring_).most;
+      const double soil = reached ? above(r, angle, *z) : 0;
       const bool digs = soil > 0;
-      if (z && r <= reach_.at(*z - ring_).most) inside = k;
+      if (reached) inside = k;
       // Where nothing is to be dug, the edge stays on the ground.
       floors.push_back(digs ? *z : z ? std::max(*z, top) : top);
       soils.push_back(digs && soil >= least_soil_ ? soil : 0);
@@ -272,7 +274,7 @@ class Fan {
     for (int k = 0; k <= samples; ++k) {
       const double r = kFaceBegins + k * kSample;
       const std::optional<double> z = floor(r, angle, pit_.lowest());
-      const bool inside = z && r <= reach_.at(*z - ring_).most;
+      const bool inside = z && r >= nearest_ && r <= reach_.at(*z - ring_).most;
       // One stretch of the strip, the nearest.
       if (!inside && first >= 0) break;
       const Vec2 p = centre_ + r * along;
@@ -305,8 +307,8 @@ class Fan {
   const PitShape& pit_;
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
-  const double width_, capacity_, slope_, tolerance_, sector_, aside_, worth_above_, worth_last_,
-      outside_, least_soil_;
+  const double width_, capacity_, slope_, tolerance_, sector_, aside_, nearest_, worth_above_,
+      worth_last_, outside_, least_soil_;
   const bool fills_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;

@@ -26,6 +26,8 @@ struct FanLimits {
   /// Largest distance of a cut from the line straight ahead [m]. If it is finite, that line is
   /// square to a side of the pit however the machine stands.
   double aside = std::numeric_limits<double>::infinity();
+  /// Distance from the swing axis at which soil is dug, at least [m].
+  double nearest = 0;
   /// Deviation (rms) from the design above which a strip is levelled at the end [m]; 0: that of the
   /// job.
   double tolerance = 0;

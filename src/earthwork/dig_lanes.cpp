@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 #include "scene/polygon.h"
 
@@ -20,7 +20,9 @@ constexpr double kSteep = radians(75), kWide = 2.5;
 constexpr double kStraightLane = 3, kOverlap = 0.1, kStraightSector = radians(32);
 // Stations of straight lanes are looked for in steps of this [m], and a strip along the near side
 // with this share of the soil of its lane is no reason for one.
-constexpr double kStraightStep = 0.05, kStraightLeast = 0.06;
+constexpr double kStraightStep = 0.05, kStraightLeast = 0.02;
+// Space for the end of a cut between the nearest soil and where the arm can dig [m].
+constexpr double kStraightEnd = 0.5;
 // The sides of the bucket may be so far outside of such a pit [m]: a strip that ends aslant at a
 // side leaves a triangle inside or digs one outside. tuned: of 15 m3, 10 x 5 x 0.3 m in one wide
 // lane, 0.1 / 0.4 leaves 2.4 / 1.4 and digs 0.1 / 0.6 outside.
@@ -31,8 +33,9 @@ constexpr double kStraightWorth = 0.15;
 constexpr double kStraightTolerance = 0.04;
 // An edge is parallel to a heading up to this sine.
 constexpr double kParallel = 0.1;
-// Stations are in one row if they are at most so far apart along the heading [m].
-constexpr double kRow = 1;
+// Stations of a lane are in one row if they are at most so far apart [m]: the machine then still
+// stands on ground that no neighbour digs.
+constexpr double kRow = 1.2;
 
 /// Adds middles between lowest and highest so that none are more than kStraightLane apart.
 std::vector<double> fill_in(const std::vector<double>& in) {
@@ -106,7 +109,7 @@ std::vector<RetreatAxis> lanes(const control::PitJob& job, const PitShape& pit, 
 
 SearchRules search_rules(const control::PitJob& job, const PitShape& pit, double bucket_width) {
   if (!digs_straight(job, pit, bucket_width)) return {};
-  return {kStraightSector, kStraightStep, kStraightLeast};
+  return {kStraightSector, kStraightStep, kStraightLeast, kFaceBegins + kStraightEnd};
 }
 
 FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bucket_width) {
@@ -115,6 +118,7 @@ FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bu
   out.sector = kStraightSector;
   out.aside = 0.5 * kStraightLane + kOverlap;
   out.outside = kOutside;
+  out.nearest = kFaceBegins + kStraightEnd;
   // Passes of a truck are to be full.
   if (!job.into_beds) {
     out.worth_last = kStraightWorth;
@@ -124,12 +128,20 @@ FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bu
 }
 
 void sort_in_rows(double heading, std::vector<control::JobStation>& stations) {
-  const Vec2 ahead(std::cos(heading), std::sin(heading));
-  std::stable_sort(stations.begin(), stations.end(),
-                   [&](const control::JobStation& a, const control::JobStation& b) {
-                     return std::lround(a.at.p.dot(ahead) / kRow) >
-                            std::lround(b.at.p.dot(ahead) / kRow);
-                   });
+  const Vec2 ahead(std::cos(heading), std::sin(heading)), across(-ahead.y(), ahead.x());
+  std::vector<std::pair<int, control::JobStation>> rows;
+  Vec2 first = Vec2::Zero();  // of the row in this lane
+  for (const control::JobStation& one : stations) {
+    const bool same_lane = !rows.empty() && std::abs((one.at.p - first).dot(across)) < 0.1;
+    int row = same_lane ? rows.back().first : 0;
+    if (same_lane && (first - one.at.p).dot(ahead) > kRow) ++row;
+    if (!same_lane || row != rows.back().first) first = one.at.p;
+    rows.emplace_back(row, one);
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::transform(rows.begin(), rows.end(), stations.begin(),
+                 [](const auto& one) { return one.second; });
 }
 
 }  // namespace navvy::earthwork

@@ -74,7 +74,7 @@ class AxisSearch {
     const Vec2 from = one.p - axis_.through - place * ahead_;
     const double reach = from.norm(), front = from.dot(ahead_);
     // The face ahead of the machine rises from its foot at the angle of the batter.
-    return front >= reach * cos_sector_ &&
+    return front >= reach * cos_sector_ && reach >= rules_.nearest &&
            one.top - one.floor <= (reach - kFaceBegins) * slope_ + kLeastDepth &&
            digger_.reach.contains(reach, one.floor - digger_.ring);
   }
@@ -82,6 +82,8 @@ class AxisSearch {
   /// NaN if there is none.
   double next_station(double limit) const {
     const double far = farthest();
+    if (rules_.nearest > 0 && std::isfinite(limit))
+      if (const double last = last_station(limit, far); !std::isnan(last)) return last;
     std::vector<PitColumn> front;
     for (const PitColumn& one : left_)
       if (along(one) >= far - kFront) front.push_back(one);
@@ -92,6 +94,16 @@ class AxisSearch {
                       [&](const PitColumn& one) { return covers(place, one); }))
         return place;
     }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  /// Returns the foremost place, before `limit`, from which all soil that is left is dug; NaN if
+  /// there is none.
+  double last_station(double limit, double far) const {
+    for (double place = std::min(limit, far); place > far - digger_.reach.arm().longest() - 2;
+         place -= rules_.step)
+      if (std::all_of(left_.begin(), left_.end(),
+                      [&](const PitColumn& one) { return covers(place, one); }))
+        return place;
     return std::numeric_limits<double>::quiet_NaN();
   }
   /// Leaves the farthest soil out.

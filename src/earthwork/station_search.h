@@ -46,6 +46,9 @@ struct SearchRules {
   double step = 0.25;       ///< between candidates for stations [m]
   /// Soil that is less than this share of what belongs to an axis is no reason for a station [-].
   double least_share = 0;
+  /// Distance from the swing axis at which soil is dug, at least [m]. If it is above 0, the last
+  /// station of an axis with several stands as near to its soil as this allows.
+  double nearest = 0;
 };
 
 /// Returns the stations from which all columns of a pit are dug, one axis after the other. At each
