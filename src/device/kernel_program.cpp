@@ -64,6 +64,10 @@ struct Kernel::State {
 
 namespace {
 
+/// PoCL compiles kernels for less than this number of work-items along each axis, where the first
+/// two of a launch have less. It does not look at the third.
+constexpr std::size_t kMostDeep = 1 << 16;
+
 /// Returns a notice that is logged if the driver takes long to compile `what`.
 std::unique_ptr<SlowCall> log_if_slow(const Device::State& device, const std::string& what) {
   const std::string& folder = prepare_kernel_cache().folder;
@@ -280,8 +284,17 @@ void Kernel::enqueue(WorkSize global, WorkSize local) {
   launch(global, local.n);
 }
 
+// PoCL before version 6 loads a copy of a kernel for each new largest number of work-items along
+// the first and second axis, and after 128 copies unloads and loads one at almost every launch in
+// the caller's thread: half of the processor time in a long run with both drivers. It does not look
+// at the third axis, so groups are counted along that.
 void Kernel::enqueue_groups(std::size_t groups) {
   const std::size_t* group = state_->group;
+  if (groups < kMostDeep && group[2] == 1 &&
+      state_->program->device->shared->guard().keeps_copies()) {
+    launch(WorkSize(group[0], group[1], groups), group);
+    return;
+  }
   launch(WorkSize(groups * group[0], group[1], group[2]), group);
 }
 

@@ -42,6 +42,8 @@ class LaunchGuard {
   /// Guards launches if `needed` is true. Otherwise does nothing.
   explicit LaunchGuard(bool needed) : needed_(needed) {}
 
+  /// Returns true if the driver keeps a copy of a kernel for each new largest number of work-items.
+  bool keeps_copies() const { return needed_; }
   /// Returns true for an OpenCL version text of a driver that needs the guard.
   static bool needed_by(const std::string& version);
 

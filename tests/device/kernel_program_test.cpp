@@ -217,6 +217,32 @@ kernel void f(global int* out) {
   EXPECT_EQ(std::count(values.begin(), values.end(), -1), 0);
 }
 
+TEST(Kernel, RunsEachGroupOnce) {
+  Device device;
+  const KernelProgram program = KernelProgram::from_text(device, "f.cl", R"(
+#include "common/group_index.h"
+kernel void one(global int* out) { ++out[group_index()]; }
+__attribute__((reqd_work_group_size(4, 1, 1))) kernel void four(global int* out) {
+  ++out[4 * group_index() + get_local_id(0)];
+})");
+  // Around 2^16 groups another axis counts them.
+  constexpr std::size_t kMost = 65537;
+  Buffer<int> out(device, 4 * kMost);
+  for (const std::size_t groups :
+       {std::size_t{0}, std::size_t{1}, std::size_t{63}, kMost - 2, kMost - 1, kMost})
+    for (const std::size_t size : {1, 4}) {
+      out.fill(0);
+      Kernel(program, size == 1 ? "one" : "four").args(out).enqueue_groups(groups);
+      const std::vector<int> found = out.read();
+      const std::size_t end = size * groups;
+      EXPECT_EQ(std::count(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(end), 1),
+                static_cast<std::ptrdiff_t>(end))
+          << groups << " of " << size;
+      EXPECT_EQ(std::count(found.begin(), found.end(), 0),
+                static_cast<std::ptrdiff_t>(4 * kMost - end));
+    }
+}
+
 TEST(Kernel, RefusesWrongArgumentsByName) {
   Device device;
   const KernelProgram program = KernelProgram::from_text(device, "add.cl", kAdd);

@@ -13,7 +13,7 @@
 
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void edge_nodes(
     EDGE_ARGS, global float4* restrict edge) {
-  const int near = get_group_id(0), me = get_local_id(0);
+  const int near = group_index(), me = get_local_id(0);
   edge[near_node(near, me)] = edge_node(near, me, EDGE_SAME);
 }
 
@@ -22,7 +22,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_nod
     BLOCK_ARGS, NODE_ARGS, const int renew, global NodeContact* restrict contacts,
     global int* restrict counts) {
   local int taken[BLOCK_NODES];
-  const int near = get_group_id(0), me = get_local_id(0);
+  const int near = group_index(), me = get_local_id(0);
   const int3 key = keys[near_list[near]].xyz;
   global NodeContact* list = contacts + (size_t)near * BLOCK_CONTACTS;
   if (renew) {
@@ -123,7 +123,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_app
     global const int* restrict first, global const BlockFloor* restrict floors, const Reach reach,
     const int renew, global ContactRecord* restrict records, global float4* restrict velocity0,
     global float4* restrict velocity1) {
-  const int near = get_group_id(0), me = get_local_id(0);
+  const int near = group_index(), me = get_local_id(0);
   const int block = near_list[near], i = near_node(near, me);
   global const BlockFloor* ground = floors + block;
   global float4* seen0 = velocity0 + (size_t)block * BLOCK_NODES + me;

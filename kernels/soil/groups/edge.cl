@@ -16,7 +16,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void edge_strength(
     global const int* restrict list, global const int* restrict first,
     global const float4* restrict points, global float4* restrict strength) {
   local float4 parts[MEMBERS];
-  const int entry = get_group_id(0), me = get_local_id(0);
+  const int entry = group_index(), me = get_local_id(0);
   const ParticleBlock block = particle_blocks[list[entry]];
   EdgeSums sums = {0.0f, 0.0f, 0.0f};
   for (int slot = block.start + me; slot < block.start + block.count; slot += MEMBERS) {

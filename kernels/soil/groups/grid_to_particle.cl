@@ -53,7 +53,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   local float4 front[TILE_SIZE], back[TILE_SIZE];
   local uchar split[TILE_SIZE];
   local int fastest, actives[27], nears[27];
-  const int block = get_group_id(0), me = get_local_id(0);
+  const int block = group_index(), me = get_local_id(0);
   const ParticleBlock particle_block = particle_blocks[block];
   // The other schedule copies tiles by it; here split nodes choose their field when they are read.
   (void)used;
@@ -126,7 +126,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle_end(
     global float* restrict state, const int capacity,
     global const ParticleBlock* restrict particle_blocks) {
-  const ParticleBlock particle_block = particle_blocks[get_group_id(0)];
+  const ParticleBlock particle_block = particle_blocks[group_index()];
   for (int slot = particle_block.start + (int)get_local_id(0);
        slot < particle_block.start + particle_block.count; slot += MEMBERS)
     for (int axis = 0; axis < 3; ++axis) {

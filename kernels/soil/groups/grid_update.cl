@@ -93,7 +93,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     global const int* restrict used, global const BlockFloor* restrict floors,
     global float4* restrict velocity, const float4 dv, const int hold, const int renew) {
   local Around here;
-  const int block = list[get_group_id(0)], me = get_local_id(0);
+  const int block = list[group_index()], me = get_local_id(0);
   load_around(&here, block, around, particle_blocks, used);
   const float4 sum = sum_of_tiles(&here, overlap(0), tiles);
   // Nodes at or below the floor have no velocity, except that the topmost of them lets soil fall
@@ -128,7 +128,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     const int hold, const int renew) {
   local Around here;
   local float4 surfaces[27];
-  const int near = get_group_id(0), me = get_local_id(0);
+  const int near = group_index(), me = get_local_id(0);
   const int block = list[near];
   // The barrier in load_around publishes it.
   if (me < 27) surfaces[me] = block_surface[max(around[27 * block + me], 0)];

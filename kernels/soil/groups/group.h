@@ -6,6 +6,7 @@
 #define NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 
 #include "soil/scalar.h"
+#include "common/group_index.h"
 
 // Unrolls the loop that follows. Loops over small private arrays are unrolled so that the arrays
 // become registers, which a GPU cannot index.

@@ -14,7 +14,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void mass_count(
     global const ParticleBlock* restrict particle_blocks, global long* restrict masses,
     const int soils) {
   local long sums[MEMBERS];
-  const int particle_block = get_group_id(0), me = get_local_id(0);
+  const int particle_block = group_index(), me = get_local_id(0);
   for (int soil = 0; soil < soils; ++soil) {
     long sum = 0;
     for (int slot = particle_blocks[particle_block].start + me;

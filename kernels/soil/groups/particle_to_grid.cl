@@ -128,7 +128,7 @@ __attribute__((reqd_work_group_size(CHUNK, 1, 1))) kernel void particle_to_grid(
   local Chunk chunk;
   local float openings[CELLS];
   local int wanted, broken;
-  const int block = get_group_id(0), me = get_local_id(0);
+  const int block = group_index(), me = get_local_id(0);
   const ParticleBlock particle_block = particle_blocks[block];
   global float4* tiles = all_tiles + (size_t)particle_block.tile * TILE_NODES;
   if (me == 0) wanted = broken = 0;

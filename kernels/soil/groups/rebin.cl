@@ -18,7 +18,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_count(
     global uchar* restrict codes, global uchar* restrict cells, global int* restrict counts,
     const int4 site) {
   local int count[CODES];
-  const int particle_block = get_group_id(0), me = get_local_id(0);
+  const int particle_block = group_index(), me = get_local_id(0);
   if (me < CODES) count[me] = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
   const float4 from_block = site_from(site, keys[particle_block]);
@@ -43,7 +43,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
     global int* restrict from) {
   local int found[MEMBERS];
   local uchar cell[MEMBERS];
-  const int particle_block = get_group_id(0), me = get_local_id(0);
+  const int particle_block = group_index(), me = get_local_id(0);
   int next = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (int n = 0; n < 27; ++n) {
@@ -81,7 +81,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     global const ParticleBlock* restrict particle_blocks, global float* restrict state,
     const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
   local float4 surface[MEMBERS];
-  const int particle_block = get_group_id(0), me = get_local_id(0);
+  const int particle_block = group_index(), me = get_local_id(0);
   const int start = particle_blocks[particle_block].start,
             end = start + particle_blocks[particle_block].count;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;

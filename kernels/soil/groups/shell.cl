@@ -22,7 +22,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void shell_nodes
     const int rim_count, global const Tool* restrict tools, global const int* restrict first,
     global const int* restrict list, const float band, global int* restrict node_split,
     global int* restrict node_tool, global NodeShell* restrict node_shell) {
-  const int near = get_group_id(0), me = get_local_id(0);
+  const int near = group_index(), me = get_local_id(0);
   const int node = near * BLOCK_NODES + me;
   const int3 key = keys[near_list[near]].xyz, in_block = (int3)(me & 3, (me >> 2) & 3, me >> 4);
   Closest best;
@@ -53,7 +53,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles
     global const int* restrict first, global const int* restrict list, const float band,
     const float longest_push, global Report* restrict report) {
   local int push, crossings;
-  const int near = get_group_id(0), me = get_local_id(0);
+  const int near = group_index(), me = get_local_id(0);
   const int particle_block = near_list[near];
   const int3 key = keys[particle_block].xyz;
   if (me == 0) push = crossings = 0;

@@ -33,7 +33,7 @@ KERNEL_SHARE(kernel_share16, real)
 // of the plate, largest force of the edge [Pa cell faces].
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void edge_nodes(
     EDGE_ARGS, global float4* restrict edge) {
-  const int near = get_global_id(0);
+  const int near = group_index();
   for (int n = 0; n < BLOCK_NODES; ++n) edge[near_node(near, n)] = edge_node(near, n, EDGE_SAME);
 }
 
@@ -42,7 +42,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void edge_nodes(
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_nodes(
     BLOCK_ARGS, NODE_ARGS, const int renew, global NodeContact* restrict contacts,
     global int* restrict counts) {
-  const int near = get_global_id(0);
+  const int near = group_index();
   const int3 key = keys[near_list[near]].xyz;
   global NodeContact* list = contacts + (size_t)near * BLOCK_CONTACTS;
   int count = renew ? 0 : counts[near];
@@ -132,7 +132,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
     global const int* restrict first, global const BlockFloor* restrict floors, const Reach reach,
     const int renew, global ContactRecord* restrict records, global float4* restrict velocity0,
     global float4* restrict velocity1) {
-  const int near = get_global_id(0);
+  const int near = group_index();
   const int block = near_list[near];
   global const BlockFloor* ground = floors + block;
   for (int row = 0; row < BLOCK_NODES / 4; ++row) {

@@ -24,7 +24,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void edge_strength(
     const int soil_count, global const ParticleBlock* restrict particle_blocks,
     global const int* restrict list, global const int* restrict first,
     global const float4* restrict points, global float4* restrict strength) {
-  const int entry = get_global_id(0);
+  const int entry = group_index();
   const ParticleBlock block = particle_blocks[list[entry]];
   EdgeSums sums = {0.0f, 0.0f, 0.0f};
   for (int slot = block.start; slot < block.start + block.count; slot += NAVVY_LANES) {

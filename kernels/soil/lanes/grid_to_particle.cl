@@ -89,7 +89,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     global const int* restrict used, global Report* restrict report, const float dt, const float dx,
     const float full, const float filled, const float closing, const float spread,
     const float most) {
-  const int block = get_global_id(0);
+  const int block = group_index();
   const ParticleBlock particle_block = particle_blocks[block];
   float tile[3 * TILE_NODES * 4];
   for (int n = 0; n < 27; ++n)
@@ -190,7 +190,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(
     global float* restrict state, const int capacity,
     global const ParticleBlock* restrict particle_blocks) {
-  const ParticleBlock particle_block = particle_blocks[get_global_id(0)];
+  const ParticleBlock particle_block = particle_blocks[group_index()];
   for (int slot = particle_block.start; slot < particle_block.start + particle_block.count;
        slot += 16)
     for (int axis = 0; axis < 3; ++axis) {

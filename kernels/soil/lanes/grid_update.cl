@@ -43,7 +43,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     global const ParticleBlock* restrict particle_blocks, global const float* restrict tiles,
     global const int* restrict used, global const BlockFloor* restrict floors,
     global float* restrict velocity, const float4 dv, const int hold, const int renew) {
-  const int block = list[get_global_id(0)];
+  const int block = list[group_index()];
   float16 rows[16];
   for (int i = 0; i < 16; ++i) rows[i] = 0.0f;
   for (int n = 0; n < 27; ++n) {
@@ -96,7 +96,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global float* restrict field1, global float4* restrict node_surface,
     global const float* restrict last0, global const float* restrict last1, const float4 dv,
     const int hold, const int renew) {
-  const int near = get_global_id(0);
+  const int near = group_index();
   const int block = list[near];
   float16 rows[3][16], total[16];
   float4 weight[64];

@@ -12,6 +12,7 @@
 #pragma clang diagnostic ignored "-Wpsabi"
 
 #include "common/portable.h"
+#include "common/group_index.h"
 #include "soil/layout.h"
 
 // Types of the dialect of kernels/README.md: real and ints hold one value for each of sixteen

@@ -13,7 +13,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void mass_count(
     global const int* restrict state, const int capacity,
     global const ParticleBlock* restrict particle_blocks, global long* restrict masses,
     const int soils) {
-  const int particle_block = get_global_id(0);
+  const int particle_block = group_index();
   const global int* mass = state + FIELD_MASS * (size_t)capacity;
   const global int* tag = state + FIELD_TAG * (size_t)capacity;
   const int start = particle_blocks[particle_block].start,

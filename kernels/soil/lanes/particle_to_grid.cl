@@ -82,7 +82,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     global const ParticleBlock* restrict particle_blocks, global float* restrict tiles,
     global int* restrict used, global Report* restrict report, const float dt, const float dx,
     const float mixing, const float most_mixing, const float carried) {
-  const int block = get_global_id(0);
+  const int block = group_index();
   const ParticleBlock particle_block = particle_blocks[block];
   global float* tile = tiles + (size_t)particle_block.tile * (4 * TILE_NODES);
   const int mask = particle_block.near ? tiles_used(state, capacity, particle_block.start,

@@ -21,7 +21,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
     global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
     global uchar* restrict codes, global uchar* restrict cells, global int* restrict counts,
     const int4 site) {
-  const int particle_block = get_global_id(0);
+  const int particle_block = group_index();
   const float4 from_block = site_from(site, keys[particle_block]);
   int count[CODES];
   for (int i = 0; i < CODES; ++i) count[i] = 0;
@@ -45,7 +45,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
     global const uchar* restrict cells, global const int* restrict counts,
     global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
     global int* restrict from) {
-  const int particle_block = get_global_id(0);
+  const int particle_block = group_index();
   int next[65];
   for (int i = 0; i < 65; ++i) next[i] = 0;
   for (int pass = 0; pass < 2; ++pass) {
@@ -75,7 +75,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     global const uchar* restrict codes, global const int* restrict from,
     global const ParticleBlock* restrict particle_blocks, global float* restrict state,
     const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
-  const int particle_block = get_global_id(0);
+  const int particle_block = group_index();
   const int start = particle_blocks[particle_block].start,
             end = start + particle_blocks[particle_block].count;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;

@@ -38,7 +38,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
     const int rim_count, global const Tool* restrict tools, global const int* restrict first,
     global const int* restrict list, const float band, global int* restrict node_split,
     global int* restrict node_tool, global NodeShell* restrict node_shell) {
-  const int near = get_global_id(0);
+  const int near = group_index();
   const int3 key = keys[near_list[near]].xyz;
   const real step_x = (real)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
   const real step_y = (real)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
@@ -86,7 +86,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     global const ShellTriangle* restrict triangles, global const Tool* restrict tools,
     global const int* restrict first, global const int* restrict list, const float band,
     const float longest_push, global Report* restrict report) {
-  const int near = get_global_id(0);
+  const int near = group_index();
   const int particle_block = near_list[near];
   const int3 key = keys[particle_block].xyz;
   float far_push = 0.0f;
