@@ -6,6 +6,7 @@
 
 #include "core/long_work.h"
 #include "device/opencl_private.h"
+#include "device/traffic_private.h"
 
 namespace navvy::device {
 
@@ -88,6 +89,7 @@ void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, b
   // With `wait` the driver has taken its copy of the data on return. Earlier work need not be done,
   // so the notice of a slow compilation stays.
   const Device::State& device = *memory_->device;
+  traffic_counters().write(bytes);
   check(clEnqueueWriteBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, offset,
                              bytes, data, 0, nullptr, nullptr),
         "clEnqueueWriteBuffer", device);
@@ -97,6 +99,7 @@ void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   if (bytes == 0) return;
   require_no_fork();
   Device::State& device = *memory_->device;
+  traffic_counters().read(bytes, true);
   const LongWork work("the OpenCL driver was busy or did not answer");
   check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr,
                             nullptr),
@@ -131,6 +134,8 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
 void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool wait) const {
   require_no_fork();
   Device::State& device = *memory_->device;
+  traffic_counters().read(bytes, wait);
+  if (access == Access::kUpdate) traffic_counters().write(bytes);
   const cl_map_flags flags = access == Access::kRead ? CL_MAP_READ : CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
   const LongWork work("the OpenCL driver was busy or did not answer");

@@ -9,6 +9,7 @@
 #include "core/long_work.h"
 #include "device/kernel_cache.h"
 #include "device/opencl_private.h"
+#include "device/traffic_private.h"
 
 namespace navvy::device {
 
@@ -331,6 +332,7 @@ void Kernel::launch(const WorkSize& global, const std::size_t* local) {
                           ? guard.launch_in_caller(device.queue, *record, enqueue)
                           : guard.launch(device.queue, *record, local, global.n, enqueue);
   check(code, "clEnqueueNDRangeKernel", device, state_->name);
+  traffic_counters().launch();
   if (event == nullptr) return;
   device.events.emplace_back(state_->name, event);
   // Bounds the number of live events in a long profiled run.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/printable.h"
+#include "device/traffic.h"
 #include "heightfield/design_surface.h"
 #include "record/earthwork.h"
 #include "record/program_list.h"
@@ -274,6 +275,11 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["time_share"] = time_shares(session, status);
   for (const auto& [stage, seconds] : world.soil().stage_times())
     out["soil_stage_s"][stage] = seconds;
+  const device::DeviceTraffic traffic = device::traffic();
+  out["device_traffic"] = {{"launches", traffic.launches},
+                           {"waits", traffic.waits},
+                           {"read_bytes", traffic.read_bytes},
+                           {"written_bytes", traffic.written_bytes}};
   add_programs(session, status.status, out);
   add_ground(session, active, out);
   add_forces(session, out);
