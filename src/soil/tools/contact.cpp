@@ -12,7 +12,8 @@
 namespace navvy::soil {
 namespace {
 
-/// Records beyond those of the last step that are read with them, without another wait.
+/// Records beyond those of the last step that are read with them at the start of a transfer,
+/// without another wait: an eighth of them, and this number.
 constexpr std::size_t kMoreRecords = 64;
 
 }  // namespace
@@ -134,9 +135,11 @@ void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Mo
 void Contact::queue_read() {
   if (nodes_.count == 0 || motions_.empty()) return;
   const auto blocks = static_cast<std::size_t>(nodes_.count);
+  // Contacts are listed at the start of a transfer; its later steps have as many.
+  const std::size_t more = nodes_.renew ? expected_ / 8 + kMoreRecords : 0;
   results_.emplace(
       Results{first_.map_read_later(0, blocks + 1),
-              records_.map_read_later(0, std::min(expected_, blocks * BLOCK_CONTACTS))});
+              records_.map_read_later(0, std::min(expected_ + more, blocks * BLOCK_CONTACTS))});
 }
 
 void Contact::sum_impulses(std::span<ToolImpulse> impulses) {
@@ -145,7 +148,7 @@ void Contact::sum_impulses(std::span<ToolImpulse> impulses) {
   const Results read = std::move(*results_);
   results_.reset();
   const auto count = static_cast<std::size_t>(read.first[read.first.size() - 1]);
-  expected_ = count + count / 2 + kMoreRecords;
+  expected_ = count;
   if (count == 0) return;
   if (count <= read.records.size())
     add_records(read.first.span(), read.records.span(), impulses);

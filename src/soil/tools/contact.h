@@ -241,7 +241,7 @@ class Contact {
   device::Buffer<std::int32_t> first_;
   /// Records of the contacts, block by block (kernel contact_apply).
   device::Buffer<ContactRecord> records_;
-  /// Number of records that the next step is expected to have at most.
+  /// Number of records of the last step.
   std::size_t expected_ = 0;
   /// Results between `queue_read` and `sum_impulses`; empty otherwise.
   std::optional<Results> results_;
