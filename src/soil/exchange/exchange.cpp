@@ -39,23 +39,6 @@ double distance_to(const heightfield::CellRect& box, int ix, int iy) {
   return dx * dx + dy * dy;
 }
 
-/// Some of the particles of a check, and their places among all of them.
-struct Part {
-  std::vector<Particle> particles;
-  std::vector<std::size_t> place;
-};
-
-/// Returns the particles whose flag in `without` is 0.
-Part part_of(std::span<const Particle> particles, const std::vector<std::uint8_t>& without) {
-  Part out;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (without[i] != 0) continue;
-    out.particles.push_back(particles[i]);
-    out.place.push_back(i);
-  }
-  return out;
-}
-
 // Keys are (y, x), as everywhere in the exchange.
 PlanKey tile_of(int ix, int iy) { return {iy / SlumpScan::kTile, ix / SlumpScan::kTile}; }
 
@@ -98,9 +81,11 @@ struct Exchange::State {
   void decide(const ColumnIndex& index, std::span<const ToolZone> zones,
               std::span<const SupportPlacement> support_areas, double time, double elapsed,
               Result& result);
-  /// Runs a check as Exchange::check, on the particles that no tool carries.
-  Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time,
-               double elapsed, const Standing& around);
+  /// Runs a check as Exchange::check, on the particles that no tool carries: `carried` has one flag
+  /// per particle, not 0 for those of tools.
+  Result check(std::span<const Particle> particles, const std::vector<std::uint8_t>& carried,
+               std::span<const ToolRegion> tools, double time, double elapsed,
+               const Standing& around);
   int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones,
                 const ActivationPlan& plan, double elapsed);
   void visit(Archive& a);
@@ -118,7 +103,7 @@ struct Exchange::State {
   double densest;
   // Number of particles that tools carry in this check, which count for the
   // budget only.
-  std::size_t carried = 0;
+  std::size_t carried_count = 0;
 
   // State between checks. It is saved and hashed, together with `standing` and
   // `slump`; the rest follows from the scene. Ground sequence up to which
@@ -348,7 +333,7 @@ int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZon
 bool Exchange::State::deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones,
                                     std::span<const SupportPlacement> support_areas, double time,
                                     Result& result) {
-  if (support_areas.empty() || index.particles().empty()) return false;
+  if (support_areas.empty() || index.count() == 0) return false;
   std::set<PlanKey> blocks;
   result.support_columns =
       SupportDeposit(ground, index, zones, densest).deposit(support_areas, result.removed, blocks);
@@ -375,7 +360,7 @@ void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone>
     return supports_machine(ground, index, zones, support_areas, entry.first.second,
                             entry.first.first);
   });
-  fit_budget(zones, index.particles().size() + carried, time, plan);
+  fit_budget(zones, index.count() + carried_count, time, plan);
 
   update_rest(index, elapsed, rest);
   // Deposition comes before activation, because it refers to the given
@@ -387,11 +372,12 @@ void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone>
 }
 
 Exchange::Result Exchange::State::check(std::span<const Particle> particles,
+                                        const std::vector<std::uint8_t>& carried,
                                         std::span<const ToolRegion> tools, double time,
                                         double elapsed, const Standing& around) {
   Result result;
   result.removed.assign(particles.size(), 0);
-  const ColumnIndex index(particles, ground, grid);
+  const ColumnIndex index(particles, ground, grid, carried);
   const std::vector<ToolZone> zones = tool_zones(ground, index, tools, active_zone);
   const std::vector<SupportPlacement> support_areas =
       support_placements(around.support_areas, ground, around.interval);
@@ -401,17 +387,11 @@ Exchange::Result Exchange::State::check(std::span<const Particle> particles,
   }
   // The other rules see the ground with the deposited soil, and the particles
   // without it.
-  const Part left = part_of(particles, result.removed);
-  Result others;
-  others.removed.assign(left.particles.size(), 0);
-  const ColumnIndex index_left(left.particles, ground, grid);
-  decide(index_left, tool_zones(ground, index_left, tools, active_zone), support_areas, time,
-         elapsed, others);
-  for (std::size_t i = 0; i < left.place.size(); ++i)
-    result.removed[left.place[i]] = others.removed[i];
-  others.removed = std::move(result.removed);
-  others.support_columns = result.support_columns;
-  return others;
+  std::vector<std::uint8_t> gone = carried;
+  for (std::size_t i = 0; i < gone.size(); ++i) gone[i] |= result.removed[i];
+  const ColumnIndex left(particles, ground, grid, gone);
+  decide(left, tool_zones(ground, left, tools, active_zone), support_areas, time, elapsed, result);
+  return result;
 }
 
 Exchange::Result Exchange::check(std::span<const Particle> particles,
@@ -419,15 +399,9 @@ Exchange::Result Exchange::check(std::span<const Particle> particles,
                                  const Standing& standing) {
   State& s = *state_;
   const std::vector<std::uint8_t> carried = carried_load(s.ground, s.grid, particles, tools);
-  s.carried =
+  s.carried_count =
       particles.size() - static_cast<std::size_t>(std::count(carried.begin(), carried.end(), 0));
-  if (s.carried == 0) return s.check(particles, tools, time, elapsed, standing);
-  const Part seen = part_of(particles, carried);
-  Result out = s.check(seen.particles, tools, time, elapsed, standing);
-  std::vector<std::uint8_t> removed(particles.size(), 0);
-  for (std::size_t i = 0; i < seen.place.size(); ++i) removed[seen.place[i]] = out.removed[i];
-  out.removed = std::move(removed);
-  return out;
+  return s.check(particles, carried, tools, time, elapsed, standing);
 }
 
 std::vector<Particle> Exchange::activate(const heightfield::CellRect& rect, double z_bottom,

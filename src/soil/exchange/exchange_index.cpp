@@ -27,26 +27,32 @@ std::uint64_t packed(const PlanKey& key) {
 }  // namespace
 
 ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground,
-                         PlanGrid grid)
+                         PlanGrid grid, std::span<const std::uint8_t> without)
     : particles_(particles), ground_(ground), grid_(grid) {
-  group();
+  group(without);
   sort_columns();
   build_piles();
 }
 
-void ColumnIndex::group() {
+void ColumnIndex::group(std::span<const std::uint8_t> without) {
   // Blocks in order of first occurrence, then renumbered in ascending order, so that the input's
   // order has no effect.
-  std::vector<std::uint32_t> slots(particles_.size());
+  std::vector<std::uint32_t> slots;
+  slots.reserve(particles_.size());
   std::vector<PlanKey> seen;
+  std::uint32_t last = 0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
+    if (!without.empty() && without[i] != 0) continue;
     const auto [ix, iy] = grid_.column_of(particles_[i]);
     const PlanKey key = grid_.block_of(ix, iy);
-    const auto [found, is_new] = place_.emplace(packed(key), static_cast<int>(seen.size()));
-    if (is_new) seen.push_back(key);
-    slots[i] =
-        static_cast<std::uint32_t>(found->second) * static_cast<std::uint32_t>(kColumnsPerBlock) +
-        static_cast<std::uint32_t>(grid_.place(ix, iy));
+    // A particle is mostly in the block of the one before it, which needs no look-up.
+    if (seen.empty() || seen[last] != key) {
+      const auto [found, is_new] = place_.emplace(packed(key), static_cast<int>(seen.size()));
+      if (is_new) seen.push_back(key);
+      last = static_cast<std::uint32_t>(found->second);
+    }
+    slots.push_back(last * static_cast<std::uint32_t>(kColumnsPerBlock) +
+                    static_cast<std::uint32_t>(grid_.place(ix, iy)));
   }
   keys_ = seen;
   std::sort(keys_.begin(), keys_.end());
@@ -65,10 +71,11 @@ void ColumnIndex::group() {
   }
   for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
   // Particles of one column are contiguous now, in the order of the input until sort_columns.
-  order_.resize(particles_.size());
+  order_.resize(slots.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end());
-  for (std::size_t i = 0; i < slots.size(); ++i)
-    order_[next[slots[i]]++] = static_cast<std::uint32_t>(i);
+  auto slot = slots.begin();
+  for (std::size_t i = 0; i < particles_.size(); ++i)
+    if (without.empty() || without[i] == 0) order_[next[*slot++]++] = static_cast<std::uint32_t>(i);
 }
 
 void ColumnIndex::sort_columns() {

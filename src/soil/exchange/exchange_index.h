@@ -46,9 +46,10 @@ class ColumnIndex {
  public:
   /// Sorts the particles. A particle outside the site is listed under the column that would be
   /// below it. `grid`: offset of the blocks relative to the columns; the default places a block at
-  /// the site's corner.
+  /// the site's corner. `without`: one flag per particle, not 0 for those that are not listed, or
+  /// empty.
   ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground,
-              PlanGrid grid = {});
+              PlanGrid grid = {}, std::span<const std::uint8_t> without = {});
 
   /// Returns the offset of the blocks relative to the columns.
   const PlanGrid& grid() const { return grid_; }
@@ -73,12 +74,12 @@ class ColumnIndex {
 
   /// Returns the particle with index i, as `column` and `block` return it.
   const Particle& operator[](std::uint32_t i) const { return particles_[i]; }
-  /// Returns the particles given to the constructor, in their original order.
-  std::span<const Particle> particles() const { return particles_; }
+  /// Returns the number of particles that are listed.
+  std::size_t count() const { return order_.size(); }
 
  private:
   /// Groups the particles by block and column.
-  void group();
+  void group(std::span<const std::uint8_t> without);
   /// Sorts the particles of each column by height.
   void sort_columns();
   /// Computes the pile on each column of the blocks.
