@@ -15,6 +15,12 @@ static inline int3 neighbour_offset(int n) { return (int3)(n % 3 - 1, n / 3 % 3 
 // LEFT_SITE means that it is outside the site. CODES is the number of codes.
 #define LEFT_SITE 27
 #define CODES 28
+// Code of a particle that is removed; it is not counted.
+#define REMOVED 255
+// Number of old blocks from which a new block takes particles: its 27 neighbours, and last a block
+// of added particles, whose code is that of the block itself, 13.
+#define SOURCES 28
+#define ADDED_SOURCE 27
 
 // Destination of one particle.
 typedef struct Place {
@@ -44,6 +50,14 @@ static inline Place place_of(float x, float y, float z, float4 site) {
 static inline float4 site_from(int4 site, int4 key) {
   const float bx = 4.0f * key.x, by = 4.0f * key.y;
   return (float4)(site.x - bx, site.y - by, site.z - bx, site.w - by);
+}
+
+// Returns the destination code of the particles that a new block takes from source i, and the order
+// of arrival with it. Re-bins take the neighbours in the order of the codes; with `ascending` they
+// come in the order of their keys, as in ParticleStore::sorted: the key of a source falls as its
+// code rises.
+static inline int code_of_source(int i, int ascending) {
+  return i == ADDED_SOURCE ? 13 : ascending ? 26 - i : i;
 }
 
 // Cases of rest_of, for the lists of particle_fields.h.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "soil/soil_particles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,7 +11,7 @@
 
 namespace navvy::soil {
 
-Particle in_cell_block(Particle p) {
+static void move_to_cell_block(Particle& p) {
   for (int a = 0; a < 3; ++a) {
     // Most particles lie in their block.
     if (p.x[a] >= 0 && p.x[a] < kBlockCells) continue;
@@ -18,6 +19,10 @@ Particle in_cell_block(Particle p) {
     p.block[a] += d;
     p.x[a] -= static_cast<float>(kBlockCells * d);
   }
+}
+
+Particle in_cell_block(Particle p) {
+  move_to_cell_block(p);
   return p;
 }
 
@@ -32,10 +37,9 @@ std::vector<Particle> SoilParticles::records() const {
 }
 
 // Blocks of stored particles are those of their base node; the exchange needs the cell itself.
-std::vector<Particle> SoilParticles::by_cell() const {
-  std::vector<Particle> out = store_.records();
-  for (Particle& p : out) p = in_cell_block(p);
-  return out;
+void SoilParticles::by_cell(std::vector<Particle>& out) const {
+  store_.exchange_records(out);
+  for (Particle& p : out) move_to_cell_block(p);
 }
 
 std::vector<PointMass> SoilParticles::masses_near(const Vec3& low, const Vec3& high) const {
@@ -73,17 +77,43 @@ std::vector<std::int64_t> SoilParticles::masses() const {
   return out;
 }
 
-void SoilParticles::assign(const std::vector<Particle>& particles) {
-  // Logs once each time the budget is exceeded. The run goes on, more slowly.
-  const bool over = static_cast<int>(particles.size()) > budget_;
+// Logs once each time the budget is exceeded. The run goes on, more slowly.
+void SoilParticles::check_budget(std::size_t particles) {
+  const bool over = static_cast<int>(particles) > budget_;
   if (over && !over_budget_)
-    log_warning("soil: " + std::to_string(particles.size()) +
+    log_warning("soil: " + std::to_string(particles) +
                 " particles are active, more than the budget of " + std::to_string(budget_));
   over_budget_ = over;
+}
+
+void SoilParticles::assign(const std::vector<Particle>& particles) {
+  check_budget(particles.size());
   try {
     store_.assign(particles);
   } catch (const device::DeviceError&) {
     unplaced_ = ParticleStore::sorted(particles);
+    throw;
+  }
+  unplaced_.clear();
+  blocks_changed_ = true;
+  drift_ = 0;
+}
+
+void SoilParticles::change(const std::vector<std::uint8_t>& removed,
+                           const std::vector<Particle>& added) {
+  const auto gone =
+      removed.size() - static_cast<std::size_t>(std::count(removed.begin(), removed.end(), 0));
+  check_budget(static_cast<std::size_t>(count()) - gone + added.size());
+  try {
+    store_.change(removed, added);
+  } catch (const device::DeviceError&) {
+    // The store still has those from before.
+    std::vector<Particle> all;
+    const std::vector<Particle> before = store_.records();
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (removed.empty() || removed[i] == 0) all.push_back(before[i]);
+    all.insert(all.end(), added.begin(), added.end());
+    unplaced_ = ParticleStore::sorted(std::move(all));
     throw;
   }
   unplaced_.clear();

@@ -45,9 +45,10 @@ class SoilParticles {
 
   /// Returns host copies of all particles, in stored order.
   std::vector<Particle> records() const;
-  /// Returns host copies of the particles on the device, in stored order, each assigned to the
-  /// block that contains its position (in_cell_block).
-  std::vector<Particle> by_cell() const;
+  /// Replaces the contents of `out` by host copies of the particles on the device, in stored order,
+  /// each assigned to the block that contains its position (in_cell_block), with the fields that
+  /// ParticleStore::exchange_records reads.
+  void by_cell(std::vector<Particle>& out) const;
   /// Returns the current positions and masses of all particles inside the box `low` .. `high` of G
   /// [cells], and of some outside it.
   std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
@@ -60,6 +61,9 @@ class SoilParticles {
   /// @throws device::DeviceError when the device has no memory for them; they are then kept on the
   /// host.
   void assign(const std::vector<Particle>& particles);
+  /// Removes the particles whose flag in `removed` is not 0, and adds `added`
+  /// (ParticleStore::change). Logs the warning and keeps particles on the host as `assign` does.
+  void change(const std::vector<std::uint8_t>& removed, const std::vector<Particle>& added);
   /// Sorts the particles into the blocks of their current positions. Removes those that left the
   /// site and returns them.
   std::vector<Particle> rebin();
@@ -76,6 +80,9 @@ class SoilParticles {
   void visit(Archive& a);
 
  private:
+  /// Logs a warning when the number of particles first exceeds the budget.
+  void check_budget(std::size_t particles);
+
   /// Particles on the device.
   ParticleStore store_;
   /// Number of soils of the scene.

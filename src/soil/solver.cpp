@@ -312,7 +312,8 @@ void Solver::State::check_exchange(double dt, std::span<const ToolMotion> motion
   std::vector<ToolRegion> regions;
   for (const ToolMotion& motion : motions) regions.push_back(region_of(motion));
   // Columns are judged by present positions, by the cell that holds them.
-  const std::vector<Particle> all = particles.by_cell();
+  const std::vector<Particle>& all = exchange_particles;
+  particles.by_cell(exchange_particles);
   standing.update(exchange_clock.elapsed(), motions, regions, all);
   for (ToolRegion& region : regions) region.supported = standing.supports(region.tool);
   // The next check waits for the end of a transfer.
@@ -323,7 +324,7 @@ void Solver::State::check_exchange(double dt, std::span<const ToolMotion> motion
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
   // Soil that became active under a tool carries it from now on.
   standing.release(regions, result.born);
-  replace(all, result.removed, std::move(result.born));
+  replace(all, std::move(result.removed), std::move(result.born));
   // Columns are counted anew. The device counts the particles in every transfer (check_masses).
   const std::int64_t error = masses.ledger(masses.in_particles()).error();
   if (error != 0) {
@@ -332,22 +333,22 @@ void Solver::State::check_exchange(double dt, std::span<const ToolMotion> motion
   }
 }
 
-void Solver::State::replace(const std::vector<Particle>& all,
-                            const std::vector<std::uint8_t>& removed, std::vector<Particle> born) {
-  const bool any_removed =
-      std::any_of(removed.begin(), removed.end(), [](std::uint8_t r) { return r != 0; });
-  if (!any_removed && born.empty()) return;
-  // The order of the particles that stay decides their order in each cell, so it is kept.
-  std::vector<Particle> stay;
-  stay.reserve(all.size() + born.size());
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (!any_removed || removed[i] == 0) stay.push_back(all[i]);
+void Solver::State::replace(std::span<const Particle> all, std::vector<std::uint8_t> removed,
+                            std::vector<Particle> born) {
+  if (std::all_of(removed.begin(), removed.end(), [](std::uint8_t r) { return r == 0; }))
+    removed.clear();
+  if (removed.empty() && born.empty()) return;
+  std::vector<std::int64_t> sums = masses.in_particles();
+  for (std::size_t i = 0; i < removed.size(); ++i)
+    if (removed[i] != 0) sums[all[i].soil] -= all[i].mass;
   for (Particle& p : born) {
     // Ids are never reused, so that a particle can be followed through snapshots.
     p.id = masses.new_id();
-    stay.push_back(p);
+    sums[p.soil] += p.mass;
   }
-  assign(stay);
+  particles.change(removed, born);
+  // Only now: without device memory they stay as they were.
+  masses.set_particles(std::move(sums));
 }
 
 // Masses follow only once the store has the particles: without device memory they stay as they
@@ -402,7 +403,8 @@ void Solver::State::update_floor() {
 
 void Solver::activate(const heightfield::CellRect& rect, double z_bottom) {
   state_->end_transfer();
-  state_->add(state_->exchange.activate(rect, z_bottom, state_->particles.by_cell()));
+  state_->particles.by_cell(state_->exchange_particles);
+  state_->add(state_->exchange.activate(rect, z_bottom, state_->exchange_particles));
 }
 
 void Solver::insert(const std::vector<Particle>& particles) {

@@ -69,9 +69,9 @@ struct Solver::State {
   /// removes particles, and checks the ledger.
   /// @throws SimulationError when the mass ledger is not balanced.
   void check_exchange(double dt, std::span<const ToolMotion> motions);
-  /// Removes the particles of `all` whose flag in `removed` is not 0 (none if `removed` is empty),
-  /// and adds `born` with new IDs.
-  void replace(const std::vector<Particle>& all, const std::vector<std::uint8_t>& removed,
+  /// Removes the particles whose flag in `removed` is not 0 (none if `removed` is empty), and adds
+  /// `born` with new IDs. `all`: all particles, in stored order, of which soil and mass are read.
+  void replace(std::span<const Particle> all, std::vector<std::uint8_t> removed,
                std::vector<Particle> born);
   /// Selects the driver for the present number of particles: few of them are simulated in the
   /// caller's thread. Call it between two transfers only.
@@ -148,6 +148,8 @@ struct Solver::State {
   Floor floor;
   /// Rules that turn columns into particles and back.
   Exchange exchange;
+  /// Particles as the exchange sees them in a check, whose memory serves the next check, too.
+  std::vector<Particle> exchange_particles;
   /// Clock of the checks of the exchange.
   ExchangeClock exchange_clock;
   /// Resting contacts of the tools.

@@ -11,12 +11,12 @@
 
 #define MEMBERS 64
 
-// Counts. site: x and y of its lower left and of its upper right corner [cells].
+// Counts. site, removed: as in soil/lanes/rebin.cl.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_count(
     global const float* restrict state, const int capacity,
     global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
     global uchar* restrict codes, global uchar* restrict cells, global int* restrict counts,
-    const int4 site) {
+    const int4 site, global const uchar* restrict removed, const int removing) {
   local int count[CODES];
   const int particle_block = group_index(), me = get_local_id(0);
   if (me < CODES) count[me] = 0;
@@ -25,6 +25,10 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_count(
   for (int slot = particle_blocks[particle_block].start + me;
        slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count;
        slot += MEMBERS) {
+    if (removing && removed[slot]) {
+      codes[slot] = REMOVED;
+      continue;
+    }
     const Place place = place_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2), from_block);
     codes[slot] = place.code;
     cells[slot] = place.cell;
@@ -40,14 +44,14 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
     global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes,
     global const uchar* restrict cells, global const int* restrict counts,
     global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
-    global int* restrict from) {
+    global int* restrict from, const int ascending) {
   local int found[MEMBERS];
   local uchar cell[MEMBERS];
   const int particle_block = group_index(), me = get_local_id(0);
   int next = 0;
   for (int pass = 0; pass < 2; ++pass) {
-    for (int n = 0; n < 27; ++n) {
-      const int old = sources[27 * particle_block + n];
+    for (int i = 0; i < SOURCES; ++i) {
+      const int old = sources[SOURCES * particle_block + i], n = code_of_source(i, ascending);
       const int end = old < 0 ? 0 : old_particle_blocks[old].start + old_particle_blocks[old].count;
       int left = old < 0 ? 0 : counts[CODES * old + n];
       for (int begin = old < 0 ? 0 : old_particle_blocks[old].start; begin < end && left > 0;
@@ -55,10 +59,10 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
         const int slot = begin + me;
         cell[me] = slot < end && codes[slot] == n ? cells[slot] : (uchar)255;
         barrier(CLK_LOCAL_MEM_FENCE);
-        for (int i = 0; i < MEMBERS; ++i) {
-          left -= cell[i] != 255;
-          if (cell[i] != me) continue;
-          if (pass == 1) from[next] = begin + i;
+        for (int k = 0; k < MEMBERS; ++k) {
+          left -= cell[k] != 255;
+          if (cell[k] != me) continue;
+          if (pass == 1) from[next] = begin + k;
           ++next;
         }
         barrier(CLK_LOCAL_MEM_FENCE);
@@ -79,7 +83,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity,
     global const uchar* restrict codes, global const int* restrict from,
     global const ParticleBlock* restrict particle_blocks, global float* restrict state,
-    const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
+    const int capacity, constant SoilRow* soils, global float4* restrict block_surface,
+    global const float* restrict added, const int added_count) {
   local float4 surface[MEMBERS];
   const int particle_block = group_index(), me = get_local_id(0);
   const int start = particle_blocks[particle_block].start,
@@ -87,14 +92,20 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
   // Differences from the first particle: the mean of a single soil is then exact.
   float4 first = 0.0f, sum = 0.0f;
-  if (end > start)
-    first = surface_of(
-        soils + (as_int(old_state[(size_t)FIELD_TAG * old_capacity + from[start]]) & 0xffff));
+  if (end > start) {
+    const int old = from[start];
+    const float tag = old < old_capacity
+                          ? old_state[(size_t)FIELD_TAG * old_capacity + old]
+                          : added[(size_t)FIELD_TAG * added_count + old - old_capacity];
+    first = surface_of(soils + (as_int(tag) & 0xffff));
+  }
   for (int slot = start + me; slot < padded; slot += MEMBERS) {
     const bool empty = slot >= end;
     const int old = empty ? 0 : from[slot];
+    global const float* in = old < old_capacity ? old_state + old : added + (old - old_capacity);
+    const size_t stride = old < old_capacity ? old_capacity : added_count;
     for (int f = 0; f < FIELD_COUNT; ++f) {
-      STORE(f, empty ? rest_of(f) : old_state[(size_t)f * old_capacity + old]);
+      STORE(f, empty ? rest_of(f) : in[f * stride]);
     }
     if (empty) continue;
     const int3 d = neighbour_offset(codes[old]);

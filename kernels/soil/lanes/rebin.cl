@@ -4,8 +4,9 @@
 // 1 rebin_count, per old block: where each particle goes (code 0..26, x fastest; 27 = left the
 // site), how many go there, and the cell of the base node there (0..63, x fastest).
 //
-// 2 (host): builds the new blocks from the counts, and for each the 27 old blocks that it takes
-// particles from.
+// 2 (host): builds the new blocks from the counts, and for each the old blocks that it takes
+// particles from. Particles that are added stand in further old blocks, in slots from old_capacity
+// on; all their words are in `added`.
 //
 // 3 rebin_gather, per new block: the old slot of each new slot.
 //
@@ -15,12 +16,13 @@
 #include "soil/lanes/lanes.h"
 #include "soil/place.h"
 
-// Counts. site: x and y of its lower left and of its upper right corner [cells].
+// Counts. site: x and y of its lower left and of its upper right corner [cells]. removed: one flag
+// per slot, not 0 if the particle is removed; read if `removing` is not 0.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
     global const float* restrict state, const int capacity,
     global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
     global uchar* restrict codes, global uchar* restrict cells, global int* restrict counts,
-    const int4 site) {
+    const int4 site, global const uchar* restrict removed, const int removing) {
   const int particle_block = group_index();
   const float4 from_block = site_from(site, keys[particle_block]);
   int count[CODES];
@@ -28,6 +30,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
   for (int slot = particle_blocks[particle_block].start;
        slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count;
        ++slot) {
+    if (removing && removed[slot]) {
+      codes[slot] = REMOVED;
+      continue;
+    }
     const Place place = place_of(state[slot], state[(FIELD_X + 1) * (size_t)capacity + slot],
                                  state[(FIELD_X + 2) * (size_t)capacity + slot], from_block);
     codes[slot] = place.code;
@@ -37,20 +43,20 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
   for (int i = 0; i < CODES; ++i) counts[CODES * particle_block + i] = count[i];
 }
 
-// Lists the old slots of each new block. sources[27 * new + n] = old block from which code n leads
-// here, or -1. Particles of one cell are stored together, in the order of their arrival: scatter
-// and gather then work on the same nodes for a while.
+// Lists the old slots of each new block. sources[SOURCES * new + i] = old block from which code
+// code_of_source(i) leads here, or -1. Particles of one cell are stored together, in the order of
+// their arrival: scatter and gather then work on the same nodes for a while.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
     global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes,
     global const uchar* restrict cells, global const int* restrict counts,
     global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
-    global int* restrict from) {
+    global int* restrict from, const int ascending) {
   const int particle_block = group_index();
   int next[65];
   for (int i = 0; i < 65; ++i) next[i] = 0;
   for (int pass = 0; pass < 2; ++pass) {
-    for (int n = 0; n < 27; ++n) {
-      const int old = sources[27 * particle_block + n];
+    for (int i = 0; i < SOURCES; ++i) {
+      const int old = sources[SOURCES * particle_block + i], n = code_of_source(i, ascending);
       if (old < 0) continue;
       int left = counts[CODES * old + n];
       for (int slot = old_particle_blocks[old].start; left > 0; ++slot) {
@@ -74,7 +80,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity,
     global const uchar* restrict codes, global const int* restrict from,
     global const ParticleBlock* restrict particle_blocks, global float* restrict state,
-    const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
+    const int capacity, constant SoilRow* soils, global float4* restrict block_surface,
+    global const float* restrict added, const int added_count) {
   const int particle_block = group_index();
   const int start = particle_blocks[particle_block].start,
             end = start + particle_blocks[particle_block].count;
@@ -82,7 +89,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
   for (int f = 0; f < FIELD_COUNT; ++f) {
     global const float* in = old_state + (size_t)f * old_capacity;
     global float* out = state + (size_t)f * capacity;
-    for (int slot = start; slot < end; ++slot) out[slot] = in[from[slot]];
+    if (added_count == 0) {
+      for (int slot = start; slot < end; ++slot) out[slot] = in[from[slot]];
+    } else {
+      global const float* more = added + (size_t)f * added_count;
+      for (int slot = start; slot < end; ++slot)
+        out[slot] = from[slot] < old_capacity ? in[from[slot]] : more[from[slot] - old_capacity];
+    }
     const float rest = rest_of(f);
     for (int slot = end; slot < padded; ++slot) out[slot] = rest;
   }

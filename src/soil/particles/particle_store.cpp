@@ -33,8 +33,10 @@ BlockKey key_of(const Particle& p) { return {p.block[0], p.block[1], p.block[2]}
 /// Returns the cell of the base node inside its block, x fastest.
 int cell_of(const Particle& p) {
   int cell = 0;
+  // Bounded as in the kernels: a particle that came from another block may have been rounded up.
   for (int a = 2; a >= 0; --a)
-    cell = kBlockCells * cell + static_cast<int>(std::floor(p.x[a] - 0.5f));
+    cell = kBlockCells * cell +
+           std::clamp(static_cast<int>(std::floor(p.x[a] - 0.5f)), 0, kBlockCells - 1);
   return cell;
 }
 
@@ -54,6 +56,19 @@ void put_record(const Particle& p, float* state, std::size_t capacity, std::size
   words[FIELD_ID * capacity] = std::bit_cast<float>(p.id);
 }
 
+/// Reads back the integers that put_record wrote: `each(field, set)` calls set(particle, word) for
+/// all particles.
+template <class Each>
+void get_integers(const Each& each) {
+  each(FIELD_MASS, [](Particle& p, float w) { p.mass = std::bit_cast<std::int32_t>(w); });
+  each(FIELD_TAG, [](Particle& p, float w) {
+    const auto tag = std::bit_cast<std::uint32_t>(w);
+    p.soil = static_cast<std::uint16_t>(tag & 0xffff);
+    p.side = static_cast<std::uint16_t>(tag >> 16);
+  });
+  each(FIELD_ID, [](Particle& p, float w) { p.id = std::bit_cast<std::uint32_t>(w); });
+}
+
 /// Reads back what put_record wrote in consecutive slots, from `words` on. Fields are read one
 /// after another: the fields of one particle lie far apart in memory. Blocks are not in the words:
 /// the caller sets them.
@@ -69,13 +84,7 @@ void get_records(const float* words, std::size_t capacity, std::span<Particle> o
   FLOAT_FIELDS(GET_ONE, GET_MANY)
 #undef GET_ONE
 #undef GET_MANY
-  each(FIELD_MASS, [](Particle& p, float w) { p.mass = std::bit_cast<std::int32_t>(w); });
-  each(FIELD_TAG, [](Particle& p, float w) {
-    const auto tag = std::bit_cast<std::uint32_t>(w);
-    p.soil = static_cast<std::uint16_t>(tag & 0xffff);
-    p.side = static_cast<std::uint16_t>(tag >> 16);
-  });
-  each(FIELD_ID, [](Particle& p, float w) { p.id = std::bit_cast<std::uint32_t>(w); });
+  get_integers(each);
 }
 
 /// Returns the number of slots that runs of these counts need, with padding.
@@ -96,8 +105,26 @@ Particle empty_lane() {
   return p;
 }
 
+/// Returns particles, in the order of `sorted`, as a re-bin adds them.
+AddedParticles added_particles(const std::vector<Particle>& sorted) {
+  AddedParticles out;
+  out.words.resize(FIELD_COUNT * sorted.size());
+  for (const Particle& p : sorted) {
+    if (out.keys.empty() || !(out.keys.back() == key_of(p))) {
+      out.keys.push_back(key_of(p));
+      out.counts.push_back(0);
+    }
+    ++out.counts.back();
+    put_record(p, out.words.data(), sorted.size(), out.cells.size());
+    out.cells.push_back(static_cast<std::uint8_t>(cell_of(p)));
+  }
+  return out;
+}
+
 /// No site has blocks beyond this: a side has at most 2^30 columns.
 constexpr std::int32_t kFarthestBlock = (1 << 30) / kBlockCells;
+/// A site that no particle leaves.
+constexpr std::array<std::int32_t, 4> kEverywhere = {-(1 << 30), -(1 << 30), 1 << 30, 1 << 30};
 
 /// Particles of one block as they are hashed and saved: words as on the device, field after field.
 /// They are not copied, which alone would take a quarter of the hashing time.
@@ -310,99 +337,40 @@ std::vector<Particle> ParticleStore::records() const {
   return out;
 }
 
-std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& high) const {
-  // A block holds what re-bins found from half a cell above its key on; in between, particles drift
-  // by less than a cell.
-  constexpr double kFrom = -1, kTo = kBlockCells + 2;
-  std::vector<PointMass> out;
-  if (count_ == 0) return out;
-  const auto view = state_[now_].map_read();
-  const auto capacity = static_cast<std::size_t>(capacity_[now_]);
-  for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
-    const Vec3 corner = kBlockCells * Vec3(table_.particle_blocks[h].x, table_.particle_blocks[h].y,
-                                           table_.particle_blocks[h].z);
-    if (((corner.array() + kFrom) > high.array()).any() ||
-        ((corner.array() + kTo) < low.array()).any())
-      continue;
-    for (int i = 0; i < particle_blocks_[h].count; ++i) {
-      const float* words = view.data() + particle_blocks_[h].start + i;
-      PointMass point;
-      for (std::size_t a = 0; a < 3; ++a)
-        point.grid[static_cast<int>(a)] = corner[static_cast<int>(a)] +
-                                          static_cast<double>(words[(FIELD_X + a) * capacity]) +
-                                          static_cast<double>(words[(FIELD_MOVED + a) * capacity]);
-      // Positions include the displacement of the current transfer.
-      if ((point.grid.array() < low.array()).any() || (point.grid.array() > high.array()).any())
-        continue;
-      point.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
-      out.push_back(point);
-    }
-  }
-  return out;
-}
-
-void ParticleStore::places(std::vector<ParticlePlace>& out) const {
+void ParticleStore::exchange_records(std::vector<Particle>& out) const {
   out.resize(static_cast<std::size_t>(count_));
   if (count_ == 0) return;
-  const auto view = state_[now_].map_read();
+  // Two ranges of the state hold all of it.
+  static_assert(FIELD_X == 0 && FIELD_V == 3 && FIELD_C == 6);
+  static_assert(FIELD_J0 + 5 == FIELD_COUNT && FIELD_SHEAR > FIELD_J0 && FIELD_MASS > FIELD_J0 &&
+                FIELD_TAG > FIELD_J0 && FIELD_ID > FIELD_J0);
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
-  std::size_t to = 0;
+  // The second map waits for both.
+  const auto motion = state_[now_].map_read_later(0, FIELD_C * capacity);
+  const auto rest = state_[now_].map_read(FIELD_J0 * capacity, 5 * capacity);
+  Particle* next = out.data();
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
-    const int corner[3] = {kBlockCells * table_.particle_blocks[h].x,
-                           kBlockCells * table_.particle_blocks[h].y,
-                           kBlockCells * table_.particle_blocks[h].z};
-    for (int i = 0; i < particle_blocks_[h].count; ++i) {
-      const float* words = view.data() + particle_blocks_[h].start + i;
-      ParticlePlace& place = out[to++];
-      for (std::size_t a = 0; a < 3; ++a) {
-        // Rounded as in Solver::particles: to floats in the block that contains the place.
-        float x = words[(FIELD_X + a) * capacity] + words[(FIELD_MOVED + a) * capacity];
-        // Most places are in the block itself, and a call of floor takes as long as all else here.
-        const float block =
-            x >= 0 && x < kBlockCells ? 0.0f : kBlockCells * std::floor(x / kBlockCells);
-        x -= block;
-        place.grid[static_cast<int>(a)] =
-            corner[a] + static_cast<double>(block) + static_cast<double>(x);
-      }
-      place.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
-      place.j0 = words[FIELD_J0 * capacity];
-      place.id = std::bit_cast<std::uint32_t>(words[FIELD_ID * capacity]);
-      place.soil = static_cast<std::uint16_t>(
-          std::bit_cast<std::uint32_t>(words[FIELD_TAG * capacity]) & 0xffff);
+    const auto start = static_cast<std::size_t>(particle_blocks_[h].start),
+               count = static_cast<std::size_t>(particle_blocks_[h].count);
+    const BlockKey& key = table_.particle_blocks[h];
+    const auto each = [&](std::size_t field, const auto& set) {
+      const float* from = field < FIELD_C ? motion.data() + field * capacity + start
+                                          : rest.data() + (field - FIELD_J0) * capacity + start;
+      for (std::size_t i = 0; i < count; ++i) set(next[i], from[i]);
+    };
+    for (std::size_t a = 0; a < 3; ++a) {
+      each(FIELD_X + a, [a](Particle& p, float w) { p.x[a] = w; });
+      each(FIELD_V + a, [a](Particle& p, float w) { p.v[a] = w; });
+    }
+    each(FIELD_J0, [](Particle& p, float w) { p.j0 = w; });
+    each(FIELD_SHEAR, [](Particle& p, float w) { p.shear = w; });
+    get_integers(each);
+    for (std::size_t i = 0; i < count; ++i, ++next) {
+      next->block[0] = key.x;
+      next->block[1] = key.y;
+      next->block[2] = key.z;
     }
   }
-}
-
-double ParticleStore::densest() const {
-  double out = 0;
-  for (const SoilRow& soil : soil_rows_)
-    out = std::max(out, 1 / static_cast<double>(soil.inv_density));
-  return out;
-}
-
-std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
-  // Integer sums are exact, so their order does not matter.
-  std::vector<std::int64_t> out(soils, 0);
-  if (count_ == 0) return out;
-  const auto view = state_[now_].map_read();
-  const auto capacity = static_cast<std::size_t>(capacity_[now_]);
-  // Particles that are no longer finite have no mass: a run that failed shows an open ledger.
-  std::vector<float> sums;
-  for (const ParticleBlock& particle_block : particle_blocks_) {
-    const auto n = static_cast<std::size_t>(particle_block.count);
-    const float* first = view.data() + particle_block.start;
-    // Finite numbers have a finite sum here: none is near the end of the range unless the run has
-    // failed.
-    sums.assign(n, 0.0f);
-    for (std::size_t f = 0; f < FIELD_MASS; ++f)
-      for (std::size_t i = 0; i < n; ++i) sums[i] += first[f * capacity + i];
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!std::isfinite(sums[i])) continue;
-      const auto tag = std::bit_cast<std::uint32_t>(first[FIELD_TAG * capacity + i]);
-      out.at(tag & 0xffff) += std::bit_cast<std::int32_t>(first[FIELD_MASS * capacity + i]);
-    }
-  }
-  return out;
 }
 
 std::vector<Particle> ParticleStore::drop_outside() {
@@ -432,7 +400,35 @@ std::vector<Particle> ParticleStore::rebin() {
   for (std::size_t h = 0; h < old_particle_blocks; ++h)
     if (counts[kRebinCodes * h + kRebinCodes - 1] > 0) return drop_outside();
 
-  RebinPlan plan = plan_rebin(table_, counts);
+  move(plan_rebin(table_, counts), {});
+  return {};
+}
+
+void ParticleStore::change(const std::vector<std::uint8_t>& removed,
+                           const std::vector<Particle>& added) {
+  if (count_ == 0) return assign(added);
+  // Flags by slot, as the kernels number particles.
+  std::vector<std::uint8_t> flags;
+  if (!removed.empty()) {
+    const ParticleBlock& last = particle_blocks_.back();
+    flags.assign(static_cast<std::size_t>(last.start + last.count), 0);
+    auto from = removed.begin();
+    for (const ParticleBlock& block : particle_blocks_) {
+      std::copy(from, from + block.count, flags.begin() + block.start);
+      from += block.count;
+    }
+  }
+  // Particles beyond the site stay until the next re-bin records their mass.
+  const std::vector<int> counts =
+      rebin_.count({state_[now_], capacity_[now_], particle_blocks_buffer_},
+                   particle_blocks_.size(), block_keys_, kEverywhere, flags);
+  const AddedParticles more = added_particles(sorted(added));
+  const RebinPlan plan = plan_rebin(table_, counts, &more);
+  if (plan.keys.empty()) return assign({});
+  move(plan, more);
+}
+
+void ParticleStore::move(const RebinPlan& plan, const AddedParticles& added) {
   // Memory first: on failure the old order is still valid.
   const int other = 1 - now_;
   const int slots = slots_of(plan.counts);
@@ -441,6 +437,8 @@ std::vector<Particle> ParticleStore::rebin() {
   fit(device_, block_keys_, plan.keys.size());
   fit(device_, block_surface_, plan.keys.size());
   rebin_.reserve(plan.keys.size(), static_cast<std::size_t>(slots));
+  rebin_.add({state_[now_], capacity_[now_], particle_blocks_buffer_}, particle_blocks_.size(),
+             added);
   // After this point only the device itself can fail.
   std::swap(particle_blocks_buffer_, old_particle_blocks_buffer_);
   // Most re-bins leave the set of blocks as it was, and tables are expensive.
@@ -451,7 +449,6 @@ std::vector<Particle> ParticleStore::rebin() {
               {state_[other], capacity_[other], particle_blocks_buffer_}, plan, soils_,
               block_surface_);
   now_ = other;
-  return {};
 }
 
 // Reads the words in place: particle by particle would take twice as long.

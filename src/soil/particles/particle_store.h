@@ -52,11 +52,21 @@ class ParticleStore {
   /// Returns `particles` in the order in which `assign` stores them, each with the block that it is
   /// stored in.
   static std::vector<Particle> sorted(std::vector<Particle> particles);
+  /// Removes the particles whose flag in `removed` is not 0, and adds `added`. Stores the same as
+  /// `assign` of the particles that stay followed by `added`, but on the device: only flags and
+  /// added particles are copied to it. `removed`: one flag per particle in stored order, or empty;
+  /// particles must have moved by less than a cell since they were last sorted.
+  /// @throws DeviceError when the device has no memory. The store then keeps its contents.
+  void change(const std::vector<std::uint8_t>& removed, const std::vector<Particle>& added);
   /// Returns host copies of all particles in stored order. Particle::block is the block that a
   /// particle is stored in.
   std::vector<Particle> records() const;
-  /// Returns the particles of all blocks that overlap the box `low` .. `high` of G [cells]: all
-  /// particles inside the box, and some outside it.
+  /// Replaces the contents of `out` by host copies of all particles in stored order, with what the
+  /// exchange needs: block, x, v, j0, shear, mass, soil, side and ID. Other members are those that
+  /// `out` held, or defaults. Reads a third of the words that `records` copies.
+  void exchange_records(std::vector<Particle>& out) const;
+  /// Returns the particles inside the box `low` .. `high` of G [cells]. Reads a quarter of the
+  /// words that `records` copies.
   std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
   /// Replaces the contents of `out` by the places of all particles, in stored order. Reads a third
   /// of the words that `records` copies.
@@ -118,6 +128,8 @@ class ParticleStore {
   std::vector<ContactSoil> surfaces(const std::vector<Particle>& sorted) const;
   /// Removes particles outside the site and returns them.
   std::vector<Particle> drop_outside();
+  /// Moves the particles, as the re-bin has counted them, and those of `added` into new blocks.
+  void move(const RebinPlan& plan, const AddedParticles& added);
 
   /// Device that stores the particles.
   device::Device& device_;
