@@ -6,9 +6,9 @@
 
 namespace navvy::device {
 
-/// What crossed between the host and all devices of this process since it started. Where both share
-/// memory, mapped bytes are not copied, but count all the same: they are what another device would
-/// copy. Fills and copies on a device do not count.
+/// Launches and transfers of all devices of this process since it started. Where host and device
+/// share memory, mapped bytes are not copied, but count all the same: they are what another device
+/// would copy. Fills and copies on a device do not count.
 struct DeviceTraffic {
   std::uint64_t launches = 0;       ///< number of kernel launches
   std::uint64_t waits = 0;          ///< number of reads and maps that waited for queued work
