@@ -3,9 +3,10 @@
 """Writes a scene that digs a plan map: the arrays `images`, `occupancy` and `dumpability` that
 excavation planners of the Terra kind read and `navvy map --format terra` writes.
 
-Each patch of cells to be dug becomes a dig_area; with steep sides each rectangle of it, as these are
-dug from beside them. The spoil goes to a windrow beside it, on cells that may be dumped on, which
-`navvy check` accepts and for which the machine stands least often. Occupied cells become walls.
+Each patch of cells to be dug becomes a dig_area; with steep sides each rectangle of it, as these
+are dug from beside them. The spoil goes to a windrow beside it, on cells that may be dumped on. Of
+those that `navvy check` accepts it is the one for which the machine stands least often. Occupied
+cells become walls.
 
     python3 dig_plan_map.py FOLDER --number 1 --cell 1 --depth 1 --out plan.sdf
     navvy run plan.sdf

@@ -19,7 +19,7 @@ using control::place_text;
 constexpr double kSpoilClear = 0.5;   // of the dump point from the edge of the pit [m]
 constexpr double kAroundStation = 2;  // from the site's border to a station [m]
 // Half the length and width of a machine, and of the foot of a windrow [m].
-constexpr double kHalfLength = 2.4, kHalfWidth = 1.4, kHalfWindrow = 1.8;
+constexpr double kHalfLength = 2.4, kHalfWidth = 1.3, kHalfWindrow = 1.8;
 constexpr double kLeastLost = 0.05;  // volume out of reach that is a fault [m3]
 
 /// Reports sides that are steeper than the soil stands.
