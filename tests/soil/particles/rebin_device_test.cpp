@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 
 #include "soil/particles/schedule.h"
@@ -92,12 +94,15 @@ std::vector<Particle> drifted(int count) {
   return out;
 }
 
+/// A particle, word by word.
+using Words = std::array<std::uint32_t, sizeof(Particle) / sizeof(std::uint32_t)>;
+
 /// Expects that both stores hold the same words in the same order.
 void expect_same(const ParticleStore& one, const ParticleStore& other) {
   const std::vector<Particle> a = one.records(), b = other.records();
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
-    EXPECT_EQ(std::memcmp(&a[i], &b[i], sizeof a[i]), 0) << "particle " << i;
+    EXPECT_EQ(std::bit_cast<Words>(a[i]), std::bit_cast<Words>(b[i])) << "particle " << i;
   ASSERT_TRUE(one.table().particle_blocks == other.table().particle_blocks);
   ASSERT_TRUE(one.table().active == other.table().active);
   for (std::size_t h = 0; h < one.particle_blocks().size(); ++h) {
