@@ -230,6 +230,8 @@ def main():
     boxes, steps = walls(occupied, options.cell), []
     start = free_place(occupied | dig | (image == 1), options.cell)
     steep = options.batter > STEEP
+    for patch in patches(dig):
+        outline(patch)  # refuses one with a hole
     for patch in itertools.chain(*(rectangles(p) if steep else [p] for p in patches(dig))):
         corners, fault, found = outline(patch), "nothing beside it may be dumped on", []
         for line in windrows(corners, may_dump, options.cell):

@@ -37,7 +37,7 @@ struct Handover {
   /// angles, so that the arm does not drift under load.
   Axes q{};
   /// Position of the swing joint at which the present load was dug [rad], and 1 from then until the
-  /// bucket returns for the next one, else 0.
+  /// bucket returns for the next one or another step moves swing or machine, else 0.
   double dug_at = 0;
   std::int64_t dumps = 0;
 

@@ -43,9 +43,10 @@ void check_batter(const control::PitJob& job, const PitShape& pit,
                     "at most " + number_text(std::floor(degrees(flatter)), "deg")});
 }
 
-/// Returns true if a machine at `at` stands on a windrow through the point `p`.
-bool stands_on(const control::PlanePose& at, const Vec2& p) {
-  const Vec2 ahead(std::cos(at.yaw), std::sin(at.yaw)), line = p - at.p;
+/// Returns true if a machine at `at`, whose swing axis is `axle_ahead` [m] ahead, about its middle,
+/// stands on a windrow through the point `p`.
+bool stands_on(const control::PlanePose& at, double axle_ahead, const Vec2& p) {
+  const Vec2 ahead(std::cos(at.yaw), std::sin(at.yaw)), line = p - at.p - axle_ahead * ahead;
   return std::abs(line.dot(ahead)) < kHalfLength + kHalfWindrow &&
          std::abs(ahead.x() * line.y() - ahead.y() * line.x()) < kHalfWidth + kHalfWindrow;
 }
@@ -110,7 +111,7 @@ void check_stations(const control::PitJob& job, const Stations& found, const Sta
     const control::JobStation& one = found.stations[i];
     const std::string name = "station " + std::to_string(i + 1);
     for (const Vec2& p : spoil_points(job)) {
-      if (job.into_beds || !stands_on(one.at, p)) continue;
+      if (job.into_beds || !stands_on(one.at, machine.arm.X_BS().translation().x(), p)) continue;
       faults.push_back(
           {"dump_at_m", place_text(p),
            "the spoil would lie where the machine stands at " + name + ", " + place_text(one.at.p),

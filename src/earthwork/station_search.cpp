@@ -129,7 +129,8 @@ class AxisSearch {
     for (PitColumn& one : left_) {
       const Vec2 from = one.p - axis_.through - place * ahead_;
       const double reach = from.norm();
-      if (reach < kFaceBegins || from.dot(ahead_) < reach * cos_sector_) continue;
+      if (reach < std::max(kFaceBegins, rules_.nearest) || from.dot(ahead_) < reach * cos_sector_)
+        continue;
       const double down = std::max(one.floor, one.top - (reach - kFaceBegins) * slope_);
       if (!digger_.reach.contains(reach, down - digger_.ring)) continue;
       station.volume += (one.top - down) * pit_.column_area();

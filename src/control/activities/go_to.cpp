@@ -105,6 +105,7 @@ class Going final : public ActivityWith<Memory> {
   }
 
   void begin(const Observation& seen) override {
+    place_.handover.dumps = 0;
     look(seen);
     const PlanePose at = plane_pose(seen.X_WB);
     // Paths of this step so far were planned when the program began, in an earlier round of a
@@ -149,7 +150,7 @@ class Going final : public ActivityWith<Memory> {
         // A step that begins at its goal ends without driving.
         return arrived(at) ? true : plan(seen, at);
       case kSpin:
-        spin(at, out);
+        spin(seen, at, dt, out);
         return false;
       case kTurn:
         if (phase_time() >= m.turn) drive_leg(at);
@@ -191,8 +192,11 @@ class Going final : public ActivityWith<Memory> {
                                                    " plans, " + metres(goal_distance(at)) +
                                                    " from the target");
     if (goal_distance(at) <= step_.tolerance && can_turn_to(at, step_.heading)) {
-      begin_spin(at, step_.heading, Then::kPlanAnew);
-      return false;
+      m.spins = ++m.corrections <= kMostCorrections;
+      if (m.spins) {
+        begin_spin(at, step_.heading, Then::kPlanAnew);
+        return false;
+      }
     }
     // Each search has another seed: where one has found nothing, the next may.
     const PathQuery query = step_.query(at, static_cast<int>(m.plans + m.failed));
@@ -256,14 +260,26 @@ class Going final : public ActivityWith<Memory> {
     m.then = then;
     enter(kSpin);
   }
-  void spin(const PlanePose& at, Command& out) {
-    const double left = std::remainder(m.heading - at.yaw, 2 * kPi);
-    if (std::abs(left) > kTurned && phase_time() < longest_turn(m.spin)) {
+  void spin(const Observation& seen, const PlanePose& at, double dt, Command& out) {
+    double left = std::remainder(m.heading - at.yaw, 2 * kPi);
+    // After about half a turn the other way round is shorter, but not known to be clear.
+    if (left * m.spin < 0 && std::abs(left) > 0.5 * kPi) left += std::copysign(2 * kPi, m.spin);
+    m.unseen += dt;
+    if (m.unseen >= kLook && std::abs(left) < kPi) {
+      look(seen);
+      if (!can_turn_to(at, m.heading)) {
+        place_.note("the ground or a body beside it has changed: planning again");
+        return stop(Then::kPlanAnew);
+      }
+    }
+    if (std::abs(left) <= kTurned) return stop(m.then);
+    if (phase_time() < longest_turn(m.spin)) {
       out.drive = turn_command(left);
       return;
     }
-    m.spins = std::abs(left) <= kTurned;
-    stop(m.spins ? m.then : Then::kPlanAnew);
+    place_.note("it does not turn on the spot: it plans a path");
+    m.spins = false;
+    stop(Then::kPlanAnew);
   }
 
   // Path.
@@ -357,7 +373,7 @@ class Going final : public ActivityWith<Memory> {
     enter(kPlan);
     if (anew || arrived(at)) return !anew;
     // The next plan is a turn on the spot.
-    if (spins() && goal_distance(at) <= step_.tolerance) return false;
+    if (goal_distance(at) <= step_.tolerance && can_turn_to(at, step_.heading)) return false;
     if (++m.corrections > kMostCorrections)
       return fall_short(StepState::kOutOfReach, "it stands " + metres(goal_distance(at)) + " and " +
                                                     number_text(degrees(turn_error(at)), "deg") +

@@ -127,12 +127,12 @@ class Digging final : public ActivityWith<DiggingMemory> {
   void go_on(Phase next, const Observation& seen);
   /// Makes the following slices thinner if the soil held the bucket during the last drag.
   void thin_slices();
-  /// Starts the move from the ground to the dump point, with the swing held. The bucket is raised
-  /// enough to clear the heap there.
   /// Returns the position of the swing joint at which the bucket is over a place, `swing` or whole
   /// turns from it, `out` from the swing axis in W [m]: on the shorter arc, or, behind the machine,
   /// on that which comes over the tail of a bed and not over the cab.
   double arc_to(double swing, const Vec2& out) const;
+  /// Starts the move from the ground to the dump point, with the swing held. The bucket is raised
+  /// enough to clear the heap there.
   void start_carry(const Observation& seen);
   /// Continues the carry move until the machine may swing. Returns true then: the bucket is clear
   /// of the trench's edges, will be up before it gets to the heap, and loses no more soil.
