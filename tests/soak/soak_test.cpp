@@ -82,13 +82,14 @@ TEST(SoakTable, SkipsARowTruncatedByAKill) {
   EXPECT_EQ(rows[39].hash, sound()[39].hash);
 }
 
-/// Returns a plan of a few cycles. Bytes still grow by the cases of the third scoop: 0.31 MiB on
-/// the heap and buffers of 0.26 MiB on the device, which is the allowance here.
+/// Returns a plan of a few cycles. Bytes still grow by the cases of the first scoops, the lists of
+/// particles that are added and removed among them: 0.61 MiB on the heap and buffers of 0.26 MiB on
+/// the device, which is the allowance here. In 40 cycles they are flat from the 15th on.
 Plan few(const std::string& folder, long cycles) {
   Plan plan;
   plan.folder = folder;
   plan.cycles = cycles;
-  plan.allowance = {384 * 1024, 2 * 1024 * 1024, 384 * 1024, 4};
+  plan.allowance = {768 * 1024, 2 * 1024 * 1024, 384 * 1024, 4};
   return plan;
 }
 
@@ -137,7 +138,7 @@ TEST(Soak, ResumesFromAnyPartAndReportsALeakPerCycle) {
   plan.cycles = 8;
   plan.stop = [&] { return read_phases(folder / "pieces/phases.csv").back().cycle == 8; };
   std::vector<std::unique_ptr<char[]>> leaks;
-  plan.after_cycle = [&](long) { leaks.push_back(std::make_unique<char[]>(200'000)); };
+  plan.after_cycle = [&](long) { leaks.push_back(std::make_unique<char[]>(400'000)); };
   const Result leaking = soak(device, plan);
   EXPECT_EQ(leaking.reached, 8);
   ASSERT_FALSE(leaking.broken.empty());
