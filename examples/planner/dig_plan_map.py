@@ -239,6 +239,8 @@ def main():
             count, fault = stations(text, options)
             if not fault:
                 found.append((count, line))
+                if not steep:
+                    break
         if not found:
             sys.exit(f"no windrow suits the dig with corners {corners}: {fault}")
         # Of those with the fewest stations the nearest.

@@ -36,10 +36,10 @@ struct Handover {
   /// Commanded angles of the arm [rad]. A move of the arm starts from these, not from the measured
   /// angles, so that the arm does not drift under load.
   Axes q{};
-  /// Position of the swing joint at which the present load was dug [rad], and 1 from then until the
-  /// bucket returns for the next one or another step moves swing or machine, else 0.
+  /// Position of the swing joint at which the last load was dug [rad].
   double dug_at = 0;
-  std::int64_t dumps = 0;
+  /// True from then until the bucket returns, or another step moves swing or machine.
+  bool is_out = false;
 
   /// Saves or loads all fields.
   void visit(Archive& a) {
@@ -47,7 +47,7 @@ struct Handover {
     a("known", known);
     a("q", q);
     a("dug_at", dug_at);
-    a("dumps", dumps);
+    a("is_out", is_out);
   }
 };
 

@@ -26,8 +26,8 @@ struct ProgramProgress {
 
 /// The bed of another machine as it is seen from the cab.
 struct BedView {
-  /// Middle of the bed in W (x, y), and the vector from there to the middle of its
-  /// front end [m].
+  /// Middle of the bed in W (x, y), and the vector from there to the middle of its front end, along
+  /// its longer side [m].
   Vec2 middle = Vec2::Zero(), to_end = Vec2::Zero();
   /// Height of its highest rim in W [m].
   double rim = 0;

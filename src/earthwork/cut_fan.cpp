@@ -61,12 +61,13 @@ class Fan {
         worth_last_(limits.worth_last),
         outside_(limits.outside),
         least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)),
-        fills_(job.heap.has_value()) {
+        fills_(job.heap.has_value()),
+        square_(limits.square) {
     const Pose X_WS = X_WB * reach.arm().X_BS();
     centre_ = X_WS.translation().head<2>();
     ring_ = X_WS.translation().z();
     heading_ = control::plane_pose(X_WB).yaw;
-    if (std::isfinite(aside_)) {
+    if (square_) {
       const Vec2 side = scene::longest_edge(job.area.polygon);
       const double along = std::atan2(side.y(), side.x());
       heading_ = along + std::round((heading_ - along) / (kPi / 2)) * kPi / 2;
@@ -209,7 +210,7 @@ class Fan {
       return std::nullopt;
     const bool high = soils[static_cast<std::size_t>(first)] > kHighEdge;
     int begin = high ? first : first - beyond(first);
-    if (high && std::isfinite(aside_)) {
+    if (high && square_) {
       begin = std::max(0, first - static_cast<int>(kBreakOut / kSample));
       std::fill(floors.begin() + begin, floors.begin() + first,
                 floors[static_cast<std::size_t>(first)]);
@@ -288,10 +289,9 @@ class Fan {
     const int length = last - first;
     if (first < 0 || length * kSample < kLeastLength || worst_mean(squares) <= tolerance_)
       return std::nullopt;
-    const bool square = std::isfinite(aside_);
     const int more =
-        square ? std::min(first, static_cast<int>(kBreakOut / kSample)) : beyond(first);
-    if (square)
+        square_ ? std::min(first, static_cast<int>(kBreakOut / kSample)) : beyond(first);
+    if (square_)
       floors.insert(floors.begin(), static_cast<std::size_t>(more), floors.front());
     else
       floors.insert(floors.begin(), before.end() - more, before.end());
@@ -309,7 +309,7 @@ class Fan {
   const control::SurfaceView& surface_;
   const double width_, capacity_, slope_, tolerance_, sector_, aside_, nearest_, worth_above_,
       worth_last_, outside_, least_soil_;
-  const bool fills_;
+  const bool fills_, square_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;
   int layers_ = 1;

@@ -23,8 +23,10 @@ struct FanLimits {
   double worth_above = 0.6;
   /// The same in the last layer.
   double worth_last = 0.3;
-  /// Largest distance of a cut from the line straight ahead [m]. If it is finite, that line is
-  /// square to a side of the pit however the machine stands.
+  /// True if the line straight ahead is square to a side of the pit however the machine stands, and
+  /// cuts run on beyond high sides at the depth of the floor.
+  bool square = false;
+  /// Largest distance of a cut from the line straight ahead [m].
   double aside = std::numeric_limits<double>::infinity();
   /// Distance from the swing axis at which soil is dug, at least [m].
   double nearest = 0;

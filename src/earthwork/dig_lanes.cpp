@@ -13,8 +13,10 @@ namespace {
 /// A pit wider than this [m] is dug in lanes. With a reach of 7 to 8 m a machine in the middle of
 /// its lane gets to both edges some metres ahead.
 constexpr double kLane = 7;
-// Sides that are steeper than this [rad] and so many buckets apart ask for straight lanes.
-constexpr double kSteep = radians(75), kWide = 2.5;
+// Sides that are steeper than this [rad] ask for straight lanes.
+constexpr double kSteep = radians(75);
+// A pit is wide if it is so many buckets wide square to its longest edge: shorter cuts fill none.
+constexpr double kWide = 2.5;
 // Straight lanes are at most so far apart [m]. Their cuts go on so far beyond half of that [m], and
 // so far to both sides [rad].
 constexpr double kStraightLane = 3, kOverlap = 0.1, kStraightSector = radians(32);
@@ -76,9 +78,12 @@ std::vector<double> in_line(const control::PitJob& job, const PitShape& pit, dou
 
 }  // namespace
 
+bool is_wide(const PitShape& pit, double bucket_width) {
+  return pit.width() >= kWide * bucket_width;
+}
+
 bool digs_straight(const control::PitJob& job, const PitShape& pit, double bucket_width) {
-  return !job.heap && job.tolerance <= 0 && job.area.batter > kSteep &&
-         pit.width() >= kWide * bucket_width;
+  return !job.heap && job.tolerance <= 0 && job.area.batter > kSteep && is_wide(pit, bucket_width);
 }
 
 std::vector<RetreatAxis> lanes(const control::PitJob& job, const PitShape& pit, double bucket_width,
@@ -116,6 +121,7 @@ FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bu
   FanLimits out;
   if (!digs_straight(job, pit, bucket_width)) return out;
   out.sector = kStraightSector;
+  out.square = true;
   out.aside = 0.5 * kStraightLane + kOverlap;
   out.outside = kOutside;
   out.nearest = kFaceBegins + kStraightEnd;

@@ -12,8 +12,12 @@
 
 namespace navvy::earthwork {
 
+/// Returns true if a pit is wide enough to be dug square to its longest edge. `bucket_width` [m]
+/// here and below.
+bool is_wide(const PitShape& pit, double bucket_width);
+
 /// Returns true if a pit is dug in straight lanes: its sides are too steep for strips that end
-/// aslant at them, its floor is not levelled, and it is some buckets wide.
+/// aslant at them, its floor is not levelled, and it is wide.
 bool digs_straight(const control::PitJob& job, const PitShape& pit, double bucket_width);
 
 /// Returns the lanes of a pit along a heading [rad], the one farthest from the spoil first. Lanes

@@ -23,10 +23,6 @@
 namespace navvy::earthwork {
 namespace {
 
-/// A pit is dug square to its longest edge only if it is so many buckets wide there: shorter cuts
-/// fill none.
-constexpr double kLeastAcross = 2.5;
-
 class PitPlanner final : public control::JobPlanner {
  public:
   explicit PitPlanner(const scene::Machine& machine) : arm_(machine), reach_(arm_) {}
@@ -91,11 +87,11 @@ class PitPlanner final : public control::JobPlanner {
     const double along = std::atan2(longest.y(), longest.x());
     const Digger digger{reach_, pit.ground() + rise + arm_.X_BS().translation().z(),
                         arm_.X_BS().translation().x()};
-    const bool narrow = pit.width() < kLeastAcross * arm_.bucket().width;
     Choice best;
     std::array<double, 4> least{};
-    for (int i = 0; i < 4; i += narrow ? 2 : 1) {
-      const double heading = along + i * kPi / 2, width = arm_.bucket().width;
+    const double width = arm_.bucket().width;
+    for (int i = 0; i < 4; i += is_wide(pit, width) ? 1 : 2) {
+      const double heading = along + i * kPi / 2;
       Stations one = find_stations(job, pit, digger, lanes(job, pit, width, heading),
                                    search_rules(job, pit, width));
       if (digs_straight(job, pit, width)) sort_in_rows(heading, one.stations);
@@ -118,10 +114,10 @@ class PitPlanner final : public control::JobPlanner {
   /// part counts at both.
   void count_cuts(const control::PitJob& job, const PitShape& pit, double rise,
                   const control::SurfaceView& surface, control::JobPlan& plan) const {
+    const FanLimits limits = lane_limits(job, pit, arm_.bucket().width);
     for (control::JobStation& one : plan.stations)
       one.cuts = static_cast<std::int64_t>(
-          count_strips(job, pit, reach_, station_pose(one.at, rise, surface), surface,
-                       lane_limits(job, pit, arm_.bucket().width)));
+          count_strips(job, pit, reach_, station_pose(one.at, rise, surface), surface, limits));
   }
 
   const control::ArmKinematics arm_;

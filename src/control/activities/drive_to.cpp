@@ -58,7 +58,7 @@ class Driving final : public ActivityWith<Memory> {
   }
 
   void begin(const Observation& seen) override {
-    place_.handover.dumps = 0;
+    place_.handover.is_out = false;
     const PlanePose at = plane_pose(seen.X_WB);
     m.heading = Pursuit::of(step_, place_.machine.drive, at).heading;
     // The time limit depends on the whole distance, not on what is left.

@@ -105,7 +105,7 @@ class Going final : public ActivityWith<Memory> {
   }
 
   void begin(const Observation& seen) override {
-    place_.handover.dumps = 0;
+    place_.handover.is_out = false;
     look(seen);
     const PlanePose at = plane_pose(seen.X_WB);
     // Paths of this step so far were planned when the program began, in an earlier round of a
@@ -113,7 +113,8 @@ class Going final : public ActivityWith<Memory> {
     for (const PlannedPath& ahead : place_.paths)
       if (ahead.step == place_.step && ends_at_goal(ahead.path)) m.path = ahead.path, m.plans = 1;
     // At the goal a turn is enough.
-    if (goal_distance(at) <= step_.tolerance && can_turn_to(at, step_.heading)) m.plans = 0;
+    if (goal_distance(at) <= step_.tolerance && can_turn_to(at, step_.heading))
+      m.plans = 0, m.path = Path();
     if (m.plans == 0 || arrived(at)) return;
     const PlanePose& from = m.path.start();
     // `remainder` leaves a turn in -pi to pi, so that whole turns do not count.

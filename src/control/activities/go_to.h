@@ -16,6 +16,9 @@ namespace navvy::control {
 /// - the machine has left the path, or
 /// - the path ended too far from the target.
 ///
+/// A crawler turns on the spot to the goal's heading, and instead of a path with cusps it turns,
+/// drives straight and turns again where there is space (plan_path).
+///
 /// If the planner finds no path, the machine waits for `retry` and tries again. After `tries`
 /// failed attempts in a row the step fails with the state kNoPath.
 struct GoTo final : ActivityStep {

@@ -19,7 +19,7 @@ class Swinging final : public ActivityWith<ArmMove> {
   const char* phase() const override { return "swing"; }
 
   void begin(const Observation& seen) override {
-    place_.handover.dumps = 0;
+    place_.handover.is_out = false;
     // Boom, stick and bucket stay as commanded, so the load stays level.
     Axes to = with_arm(step_.angle, place_.arm_angles());
     for (std::size_t i = 1; step_.tucks && i < to.size(); ++i)

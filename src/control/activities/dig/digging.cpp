@@ -174,7 +174,7 @@ void Digging::go_to_scoop(Phase next, const Observation& seen) {
   Axes to = m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge));
   // The bucket returns the way it came, where it met nothing: on the shorter arc from a place
   // behind the machine it would meet the cab of a truck.
-  if (next == kReturn && std::exchange(place_.handover.dumps, 0) != 0 && !arm_.swing_limited())
+  if (next == kReturn && std::exchange(place_.handover.is_out, false) && !arm_.swing_limited())
     to[0] = place_.handover.dug_at + std::remainder(to[0] - place_.handover.dug_at, 2 * kPi);
   const double turn = std::min(swing_acceleration(place_, {to[1], to[2], to[3]}, 0, seen),
                                swing_acceleration(place_, place_.arm_angles(), 0, seen));
@@ -265,7 +265,7 @@ void Digging::start_carry(const Observation& seen) {
   const SwingPoint over = swing_point(X_WS, Vec3(place.x(), place.y(), heap_at(seen, place)));
   const double swing = arc_to(over.swing, place - X_WS.translation().head<2>());
   place_.handover.dug_at = place_.handover.q[0];
-  place_.handover.dumps = 1;
+  place_.handover.is_out = true;
   const double turn = std::min(swing_acceleration(place_, q, seen.payload, seen),
                                swing_acceleration(place_, place_.arm_angles(), seen.payload, seen));
   m.move.start(place_, with_arm(swing, q), seen, {1.2, 0, turn, true});
