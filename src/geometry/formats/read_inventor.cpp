@@ -5,13 +5,17 @@
 #include <Inventor/SoInput.h>
 #include <Inventor/SoPrimitiveVertex.h>
 #include <Inventor/actions/SoCallbackAction.h>
-#include <Inventor/actions/SoSearchAction.h>
 #include <Inventor/errors/SoDebugError.h>
 #include <Inventor/errors/SoReadError.h>
 #include <Inventor/fields/SoMFInt32.h>
+#include <Inventor/fields/SoMFNode.h>
 #include <Inventor/fields/SoMFVec3f.h>
 #include <Inventor/fields/SoSFInt32.h>
+#include <Inventor/fields/SoSFNode.h>
 #include <Inventor/fields/SoSFShort.h>
+#include <Inventor/lists/SoFieldList.h>
+#include <Inventor/misc/SoChildList.h>
+#include <Inventor/nodes/SoCoordinate4.h>
 #include <Inventor/nodes/SoFile.h>
 #include <Inventor/nodes/SoSeparator.h>
 #include <Inventor/nodes/SoShape.h>
@@ -20,12 +24,13 @@
 #include <cstdlib>
 #include <exception>
 #include <initializer_list>
-#include <mutex>
+#include <set>
 #include <vector>
 
 #include "core/error.h"
 #include "core/limits.h"
 #include "geometry/formats/mesh_builder.h"
+#include "geometry/formats/read_in_child.h"
 
 namespace navvy::geometry {
 namespace {
@@ -61,31 +66,67 @@ double product_of(const SoNode& node, std::initializer_list<const char*> names) 
   return product;
 }
 
-/// Returns every node below `root`.
-std::vector<const SoNode*> nodes_of(SoNode& root) {
-  SoSearchAction search;
-  search.setType(SoNode::getClassTypeId());
-  search.setInterest(SoSearchAction::ALL);
-  search.setSearchingAll(true);
-  search.apply(&root);
+/// Returns every node below `root` once, also those in fields: a search leaves out the parts of
+/// VRML shapes.
+std::vector<const SoNode*> nodes_of(const SoNode& root) {
   std::vector<const SoNode*> nodes;
-  nodes.reserve(static_cast<std::size_t>(search.getPaths().getLength()));
-  for (int i = 0; i < search.getPaths().getLength(); ++i)
-    nodes.push_back(search.getPaths()[i]->getTail());
+  std::set<const SoNode*> known;
+  const auto add = [&](const SoNode* node) {
+    if (node != nullptr && known.insert(node).second) nodes.push_back(node);
+  };
+  add(&root);
+  for (std::size_t at = 0; at < nodes.size(); ++at) {
+    const SoNode& node = *nodes[at];
+    if (const SoChildList* children = node.getChildren())
+      for (int i = 0; i < children->getLength(); ++i) add((*children)[i]);
+    SoFieldList fields;
+    node.getFields(fields);
+    for (int i = 0; i < fields.getLength(); ++i)
+      if (fields[i]->isOfType(SoSFNode::getClassTypeId()))
+        add(static_cast<const SoSFNode*>(fields[i])->getValue());
+      else if (fields[i]->isOfType(SoMFNode::getClassTypeId()))
+        for (int k = 0; k < static_cast<const SoMFNode*>(fields[i])->getNum(); ++k)
+          add((*static_cast<const SoMFNode*>(fields[i]))[k]);
+  }
   return nodes;
 }
 
+/// Returns the number of points in a field of a node; 0 if it has no such field.
+int points_in(const SoNode& node, const char* name) {
+  const SoField* field = node.getField(name);
+  if (field == nullptr || !field->isOfType(SoMFVec3f::getClassTypeId())) return 0;
+  return static_cast<const SoMFVec3f*>(field)->getNum();
+}
+
+/// Returns the number of points to which the indices of a shape refer, with at most `before` points
+/// in one node of its file.
+int points_of(const SoNode& shape, int before) {
+  const auto part = [&](const char* name) -> const SoNode* {
+    const SoField* field = shape.getField(name);
+    if (field == nullptr || !field->isOfType(SoSFNode::getClassTypeId())) return nullptr;
+    return static_cast<const SoSFNode*>(field)->getValue();
+  };
+  // VRML 2 names the points in the shape; in Inventor they may stand in any node before it.
+  if (const SoNode* own = part("vertexProperty"); own != nullptr && points_in(*own, "vertex") > 0)
+    return points_in(*own, "vertex");
+  if (shape.getField("coord") == nullptr) return before;
+  const SoNode* own = part("coord");
+  return own == nullptr ? 0 : points_in(*own, "point");
+}
+
 /// Refuses numbers by which the library would ask for any amount of memory or time.
-void check_nodes(const std::string& path, SoNode& root) {
-  int points = 0;
+void check_nodes(const std::string& path, const SoNode& root) {
+  int most = 0;
   const std::vector<const SoNode*> nodes = nodes_of(root);
   for (const SoNode* node : nodes)
-    if (const SoField* field = node->getField("point"))
-      if (field->isOfType(SoMFVec3f::getClassTypeId()))
-        points = std::max(points, static_cast<const SoMFVec3f*>(field)->getNum());
+    most = std::max({most, points_in(*node, "point"), points_in(*node, "vertex")});
   for (const SoNode* node : nodes) {
     if (node->isOfType(SoFile::getClassTypeId()))
       refuse_mesh(path, 0, "File", "a mesh must be whole in its file", "write the parts into one");
+    // Coin crashes when it computes normals from four coordinates.
+    if (node->isOfType(SoCoordinate4::getClassTypeId()))
+      refuse_mesh(path, 0, "Coordinate4", "points must have three coordinates",
+                  "export the mesh with Coordinate3");
     // Copies, and the points of an elevation grid.
     const double copies = product_of(
         *node, {"numElements1", "numElements2", "numElements3", "xDimension", "zDimension"});
@@ -96,6 +137,7 @@ void check_nodes(const std::string& path, SoNode& root) {
     const SoField* indices = node->getField("coordIndex");
     if (indices == nullptr || !indices->isOfType(SoMFInt32::getClassTypeId())) continue;
     const auto& all = *static_cast<const SoMFInt32*>(indices);
+    const int points = points_of(*node, most);
     for (int i = 0; i < all.getNum(); ++i)
       if (all[i] < -1 || all[i] >= points)
         refuse_mesh(path, 0, std::to_string(all[i]),
@@ -137,14 +179,9 @@ void add_triangle(void* into, SoCallbackAction* action, const SoPrimitiveVertex*
   }
 }
 
-}  // namespace
-
-TriangleMesh read_inventor(const std::string& path) {
-  const std::string bytes = mesh_bytes(path);
-  static std::mutex one_at_a_time;
-  const std::lock_guard<std::mutex> lock(one_at_a_time);
-  static std::once_flag started;
-  std::call_once(started, [] { SoDB::init(); });
+/// Reads the bytes of a file, in a child process.
+TriangleMesh import(const std::string& path, const std::string& bytes) {
+  SoDB::init();
   std::string message;
   SoReadError::setHandlerCallback(keep_message, &message);
   SoDebugError::setHandlerCallback(keep_message, &message);
@@ -164,14 +201,20 @@ TriangleMesh read_inventor(const std::string& path) {
       collected.failure = std::current_exception();
     }
   }
-  if (root != nullptr) root->unref();
-  SoReadError::setHandlerCallback(SoError::getHandlerCallback(), nullptr);
-  SoDebugError::setHandlerCallback(SoError::getHandlerCallback(), nullptr);
   if (root == nullptr || !message.empty())
     refuse_mesh(path, line_in(message), "",
                 "cannot be read: " + (message.empty() ? "no Inventor or VRML file" : message));
   if (collected.failure) std::rethrow_exception(collected.failure);
   return collected.builder.finish();
+}
+
+}  // namespace
+
+// Coin crashes on shapes that name normals or colours which are not there, and is not made for
+// several threads: the child has one.
+TriangleMesh read_inventor(const std::string& path) {
+  const std::string bytes = mesh_bytes(path);
+  return read_in_child(path, "Coin", [&] { return import(path, bytes); });
 }
 
 }  // namespace navvy::geometry

@@ -9,8 +9,8 @@
 namespace navvy::geometry {
 
 /// Returns the mesh in an Open Inventor 2.1, VRML 1 or VRML97 file; see geometry/read_mesh.h.
-/// Spheres, cylinders and other curved shapes become triangles. Coin is not thread-safe: calls wait
-/// for each other, and none may run beside Coin in another thread. @throws as read_mesh
+/// Spheres, cylinders and other curved shapes become triangles. Coin runs in a child process, see
+/// geometry/formats/read_in_child.h. @throws as read_mesh
 TriangleMesh read_inventor(const std::string& path);
 
 }  // namespace navvy::geometry

@@ -186,7 +186,7 @@ TEST_F(ReadMesh, InventorAndVrmlKeepPlaceAndColor) {
   EXPECT_EQ(box.materials.at(0).diffuse, (std::array<float, 3>{1, 1, 0}));
 }
 
-TEST_F(ReadMesh, ThreadsReadInventorFilesOneAfterTheOther) {
+TEST_F(ReadMesh, ThreadsReadInventorFilesBesideEachOther) {
   const std::string file = write("a.wrl", kVrml);
   std::vector<std::size_t> triangles(4);
   std::vector<std::thread> threads;
@@ -195,6 +195,30 @@ TEST_F(ReadMesh, ThreadsReadInventorFilesOneAfterTheOther) {
     threads.emplace_back([&count, &file] { count = read_mesh(file).triangles.size(); });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(triangles, (std::vector<std::size_t>{12, 12, 12, 12}));
+}
+
+TEST_F(ReadMesh, CountsTheIndicesOfAShapeByItsOwnPoints) {
+  const std::string faces = "coordIndex [ 0, 1, 2, -1 ] }\n";
+  const std::string points = "[ 0 0 0, 1 0 0, 0 1 0 ]";
+  const std::string own =
+      "#Inventor V2.1 ascii\nIndexedFaceSet { vertexProperty VertexProperty "
+      "{ vertex " +
+      points + " } " + faces;
+  EXPECT_EQ(read_mesh(write("own.iv", own)).triangles.size(), 1u);
+  const std::string weights =
+      "#Inventor V2.1 ascii\nSeparator { Coordinate4 { point [ 0 0 0 1, "
+      "1 0 0 1, 0 1 0 1 ] } IndexedFaceSet { " +
+      faces + "}\n";
+  const std::string four = refusal("weights.iv", weights);
+  EXPECT_NE(four.find("'Coordinate4': points must have three"), std::string::npos) << four;
+  // Found by fuzzing: Coin crashes on a shape without points, also beside one that has some.
+  const std::string vrml = "#VRML V2.0 utf8\nShape { geometry IndexedFaceSet { ",
+                    coord = "coord Coordinate { point " + points + " } ";
+  const std::string none = refusal("none.wrl", vrml + faces + "}\n");
+  EXPECT_NE(none.find("below the number of points, 0"), std::string::npos) << none;
+  const std::string beside =
+      refusal("beside.wrl", vrml + coord + faces + "}\n" + vrml.substr(16) + faces + "}\n");
+  EXPECT_NE(beside.find("below the number of points, 0"), std::string::npos) << beside;
 }
 
 TEST_F(ReadMesh, BrokenFilesAreRefusedWithLineAndRemedy) {
