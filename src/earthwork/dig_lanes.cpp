@@ -125,11 +125,8 @@ FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bu
   out.aside = 0.5 * kStraightLane + kOverlap;
   out.outside = kOutside;
   out.nearest = kFaceBegins + kStraightEnd;
-  // Passes of a truck are to be full.
-  if (!job.into_beds) {
-    out.worth_last = kStraightWorth;
-    out.tolerance = kStraightTolerance;
-  }
+  out.worth_last = kStraightWorth;
+  out.tolerance = kStraightTolerance;
   return out;
 }
 

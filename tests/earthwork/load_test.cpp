@@ -100,6 +100,9 @@ void run_with_trucks(DigRig& rig, int trucks, const Vec2& place, double limit) {
   }
 }
 
+/// Returns the swing angle of the rig's arm [rad]; 0 is ahead.
+double swing_of(const DigRig& rig) { return rig.engine->joint(0, 0).position; }
+
 TEST(Load, NamesAHeapOutOfReachAndBedsOutOfReach) {
   const heightfield::Ground ground = control::testing::flat_ground();
   const auto planner = job_planners()(control::testing::ew180_like());
@@ -236,6 +239,8 @@ TEST(Load, EndsWhenTheHeapIsTaken) {
   EXPECT_EQ(rig.op.reports()[0].state, control::StepState::kBlocked);
   EXPECT_NE(rig.op.reports()[0].reason.find("the heap gives no more soil"), std::string::npos)
       << rig.op.reports()[0].reason;
+  // The bucket is not left over the bed.
+  EXPECT_NEAR(swing_of(rig), 0, radians(3));
 }
 
 DigArea pit() {
@@ -267,6 +272,7 @@ TEST(DigArea, LoadsWhatItDigsIntoTrucks) {
   EXPECT_NEAR(value(report, "loaded_kg"), dug * rig.ground.setup().soils[0].bank_density,
               0.05 * value(report, "loaded_kg"));
   EXPECT_GE(value(report, "loads"), 2);
+  EXPECT_NEAR(swing_of(rig), 0, radians(3));
 }
 
 TEST(Load, ResumesBitIdenticallyWhileItWaitsAndInAScoop) {

@@ -112,7 +112,7 @@ void AreaDigging::make_part() {
     step->speed = m.way == AreaMemory::Way::kAhead ? step_.speed : -step_.speed;
     step->tolerance = kAtStation;
     part = std::move(step);
-  } else if (phase_index() == kMakeRoom) {
+  } else if (phase_index() == kTurnAside) {
     part = std::make_unique<Swing>(0);
   } else {
     part = std::make_unique<Dig>(cut_step());
@@ -176,7 +176,11 @@ bool AreaDigging::select_cut(const Observation& seen) {
 
 bool AreaDigging::go_on(const Observation& seen) {
   const auto stations = static_cast<std::int64_t>(m.stations.size());
-  if (m.station >= stations) return conclude(seen);
+  if (m.station >= stations) {
+    // A bucket over the bed would keep the truck from leaving.
+    if (job_.into_beds && place_.handover.is_out) return turn_aside(seen);
+    return conclude(seen);
+  }
   // A cut that was begun here means that the machine has arrived, wherever digging has moved it.
   if (!m.working && phase_index() != kDrive && !stands_at(seen, station().at)) {
     // The arm points ahead while the machine drives.
@@ -210,8 +214,12 @@ bool AreaDigging::wait_for_truck(const Observation& seen) {
     enter(kWait);
     return false;
   }
+  return turn_aside(seen);
+}
+
+bool AreaDigging::turn_aside(const Observation& seen) {
   m.aside = true;
-  enter(kMakeRoom);
+  enter(kTurnAside);
   make_part();
   part_->begin(seen);
   return false;
@@ -257,7 +265,7 @@ void AreaDigging::end_part(const Observation& seen) {
   part_.clear();
   if (phase_index() == kCut) return end_cut(seen, failed, reason);
   if (!failed) return;
-  if (phase_index() == kMakeRoom) return place_.warn("a truck has little space: " + reason);
+  if (phase_index() == kTurnAside) return place_.warn("a truck has little space: " + reason);
   const std::string where =
       "station " + std::to_string(m.station + 1) + " of " + std::to_string(m.stations.size());
   if (phase_index() == kDrive && m.way != AreaMemory::Way::kPlanned) {
@@ -356,9 +364,10 @@ void AreaDigging::visit(Archive& a) {
   part_.visit(a, [&] {
     a.require(phase_index() != kNext && phase_index() != kWait, "running",
               "no part runs in this phase");
-    // A part is made for the present station.
-    a.require(m.station < static_cast<std::int64_t>(m.stations.size()), "station",
-              "a part runs, but all stations are done");
+    // All other parts are made for the present station.
+    a.require(
+        phase_index() == kTurnAside || m.station < static_cast<std::int64_t>(m.stations.size()),
+        "station", "a part runs, but all stations are done");
     make_part();
   });
 }

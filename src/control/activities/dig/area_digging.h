@@ -86,7 +86,7 @@ class AreaDigging final : public ActivityWith<AreaMemory> {
  private:
   // Parts in the order in which a station is worked; the last two where trucks are loaded. No part
   // runs in kNext and kWait.
-  enum Phase : std::int64_t { kNext, kTurn, kDrive, kCut, kMakeRoom, kWait };
+  enum Phase : std::int64_t { kNext, kTurn, kDrive, kCut, kTurnAside, kWait };
 
   /// Advances the running part. Returns true when the job is over.
   bool update(const Observation& seen, double dt, Command& out) override;
@@ -94,6 +94,8 @@ class AreaDigging final : public ActivityWith<AreaMemory> {
   bool go_on(const Observation& seen);
   /// Begins to wait for a truck, with the arm turned aside. Returns true when the step has failed.
   bool wait_for_truck(const Observation& seen);
+  /// Begins to turn the arm ahead, out of the way of trucks. Always returns false.
+  bool turn_aside(const Observation& seen);
   /// Selects the next cut at the present station; returns false if there is none.
   bool select_cut(const Observation& seen);
   /// Returns true if the present cut, which is over, brought less than a third of a load each time.
