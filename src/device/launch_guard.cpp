@@ -36,7 +36,8 @@ std::array<std::size_t, 3> LaunchGuard::key_of(const std::size_t* local) {
 }
 
 std::size_t LaunchGuard::width_of(const std::size_t* global) {
-  return std::max({global[0], global[1], global[2]});
+  // A third axis does not make PoCL load a kernel again.
+  return std::max(global[0], global[1]);
 }
 
 void LaunchGuard::finish_all() const {

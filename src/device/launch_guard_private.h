@@ -33,7 +33,7 @@ class LaunchGuard {
  public:
   /// Launches of one kernel so far.
   struct Record {
-    /// Largest number of work-items along one axis so far, by the size of the work-groups.
+    /// Largest number of work-items along the first two axes so far, by the size of the groups.
     std::map<std::array<std::size_t, 3>, std::size_t> widest;
     /// Held while the kernel runs in a caller's thread.
     std::mutex running;
