@@ -353,6 +353,24 @@ TEST(Dig, ResumesBitIdenticallyFromASnapshot) {
   EXPECT_NE(hash_of(fresh.op).digest(), hash_of(whole.op).digest());
 }
 
+TEST(Dig, RemembersTheWayItCameInASnapshot) {
+  // Behind the machine, so that the shorter arc to the next scoop could be the other one.
+  Dig dig = trench();
+  dig.dump_at = Vec2(1.25 - 4, 0) - 5.9 * Vec2(std::cos(radians(4)), std::sin(radians(4)));
+  dig.max_cycles = 2;
+  DigRig whole(ew180_like(), program({dig}), make_pose(-4, 0, 0));
+  while (whole.time < 60 && whole.op.phase() != "dump") whole.step();
+  ASSERT_EQ(whole.op.phase(), "dump");
+  DigRig resumed(ew180_like(), program({dig}), make_pose(-4, 0, 0));
+  load_saved(saved(whole), resumed);
+  while (whole.time < 120 && !whole.op.ended()) {
+    whole.step();
+    resumed.step();
+  }
+  EXPECT_EQ(whole.cycles.size(), 2u);
+  EXPECT_EQ(resumed.digest(), whole.digest());
+}
+
 TEST(Dig, HashesEveryByteTheOperatorSavesInMidScoop) {
   const scene::Program steps = program({trench()});
   DigRig half(ew180_like(), steps, make_pose(-4, 0, 0)),

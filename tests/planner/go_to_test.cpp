@@ -18,6 +18,7 @@
 #include "control/reach.h"
 #include "core/error.h"
 #include "core/saved_state.h"
+#include "log_lines.h"
 #include "planner/footprint.h"
 #include "planner/map_path_planner.h"
 #include "planner/sites.h"
@@ -74,7 +75,7 @@ struct Trip {
   void crawl(const vehicle::DriveInput& input) {
     bicycle.braked = input.brake;
     bicycle.speed = input.brake ? 0 : input.speed;
-    const double turn = input.brake ? 0 : input.steer;
+    const double turn = input.brake || (held && input.speed == 0) ? 0 : input.steer;
     bicycle.at.p +=
         bicycle.speed * Bicycle::kStep * Vec2(std::cos(bicycle.at.yaw), std::sin(bicycle.at.yaw));
     bicycle.at.yaw += turn * Bicycle::kStep;
@@ -111,6 +112,7 @@ struct Trip {
   double time = 0;
   int steps = 0;
   bool crawls = false;
+  bool held = false;  ///< a crawler does not turn on the spot
   Footprint footprint;
   double turned = 0;  ///< on the spot [rad]
 };
@@ -317,6 +319,31 @@ TEST_F(GoToStep, ACrawlerKeepsItsClearanceWhileItTurns) {
   trip.run(300);
   expect_arrived(trip, goal);
   EXPECT_GE(trip.value_of("plans"), 1) << "it drives to where it can turn";
+}
+
+TEST_F(GoToStep, ACrawlerThatIsHeldInATurnDrivesAPath) {
+  const LogLines log;
+  const GoTo goal = to(-8, 0, radians(120));
+  Trip trip({goal}, -8, crawler());
+  trip.held = true;
+  trip.run(300);
+  EXPECT_NE(log.text().find("it does not turn on the spot: it plans a path"), std::string::npos);
+  expect_arrived(trip, goal);
+  EXPECT_EQ(trip.turned, 0);
+}
+
+TEST_F(GoToStep, ACrawlerStopsATurnWhenTheGroundBesideItHasChanged) {
+  const LogLines log;
+  const GoTo goal = to(-8, 0, radians(180));
+  Trip trip({goal}, -8, crawler());
+  trip.run(2);  // while it turns
+  ASSERT_GT(trip.turned, 0.1);
+  // Beside it as it stands now: its tail would swing over the trench.
+  const double yaw = trip.bicycle.at.yaw;
+  dig(trip.ground, Vec2(-18, 2.6), Vec2(18, 6));
+  trip.run(4);
+  EXPECT_NE(log.text().find("beside it has changed: planning again"), std::string::npos);
+  EXPECT_LT(trip.bicycle.at.yaw - yaw, radians(10));
 }
 
 TEST_F(GoToStep, ACrawlerResumesBitIdenticallyInATurn) {
