@@ -140,15 +140,31 @@ static inline float3 impulse_on(global const NodeContact* contact, global const 
 #define NO_SUMS \
   { {0.0f}, {0.0f}, 0.0f }
 
-// Adds held g g^T to the upper triangle of a symmetric 6 x 6 matrix, row by row. A schedule may
-// have its own.
+// Sums over contacts, and what adds to them: a schedule may have its own. ADD_WRENCH adds the
+// moment l and the force j. ADD_OUTER adds held g g^T with g = (moment, d) to the upper triangle of
+// the symmetric 6 x 6 stiffness, row by row. ADD_AXES adds m g g^T for each axis of W in turn, with
+// g = (r x axis, axis).
 #ifndef ADD_OUTER
-#define ADD_OUTER(matrix, held, g)                                                              \
-  do {                                                                                          \
-    int k_ = 0;                                                                                 \
-    for (int row_ = 0; row_ < 6; ++row_)                                                        \
-      for (int col_ = row_; col_ < 6; ++col_) (matrix)[k_++] += (held) * (g)[row_] * (g)[col_]; \
+#define SUMS ContactSums
+#define ADD_WRENCH(sums, l, j)                                      \
+  do {                                                              \
+    const float w_[6] = {(l).x, (l).y, (l).z, (j).x, (j).y, (j).z}; \
+    for (int i_ = 0; i_ < 6; ++i_) (sums)->wrench[i_] += w_[i_];    \
   } while (0)
+#define ADD_OUTER(sums, held, moment, d)                                           \
+  do {                                                                             \
+    const float g_[6] = {(moment).x, (moment).y, (moment).z, (d).x, (d).y, (d).z}; \
+    int k_ = 0;                                                                    \
+    for (int row_ = 0; row_ < 6; ++row_)                                           \
+      for (int col_ = row_; col_ < 6; ++col_)                                      \
+        (sums)->stiffness[k_++] += (held)*g_[row_] * g_[col_];                     \
+  } while (0)
+#define ADD_AXES(sums, m, r)                                  \
+  for (int a_ = 0; a_ < 3; ++a_) {                            \
+    const float3 axis_ = (float3)(a_ == 0, a_ == 1, a_ == 2); \
+    const float3 moment_ = cross((r), axis_);                 \
+    ADD_OUTER((sums), (m), moment_, axis_);                   \
+  }
 #endif
 
 // Adds a contact to the sums for its tool: the wrench of the impulse J (moment about the tool's
@@ -156,32 +172,23 @@ static inline float3 impulse_on(global const NodeContact* contact, global const 
 // to the plate's velocity at the node, and P is the part of that velocity which the contact
 // transfers to the node: its share along the normal, and all of the slip if the contact sticks
 // [docs/tools.md, two-way solve].
-static inline void add_sums(ContactSums* sums, global const NodeContact* contact,
-                            global const Tool* tools, Reach reach) {
+static inline void add_sums(SUMS* sums, global const NodeContact* contact, global const Tool* tools,
+                            Reach reach) {
   ContactNode node;
   ContactBranch branch;
   const float3 j = impulse_on(contact, tools, reach, &node, &branch);
   if (!branch.acts) return;
   // The sums are of impulses on soil; the tool gets the opposite ones.
   const float3 l = cross(node.r, j);
-  sums->wrench[0] += l.x;
-  sums->wrench[1] += l.y;
-  sums->wrench[2] += l.z;
-  sums->wrench[3] += j.x;
-  sums->wrench[4] += j.y;
-  sums->wrench[5] += j.z;
+  ADD_WRENCH(sums, l, j);
   // Three axes when the contact sticks, which also cover the normal, and a correction along the
   // normal. Each adds m p g g^T with g = (r x d, d) and the part p that is passed on.
+  if (branch.sticking) ADD_AXES(sums, node.m, node.r);
   const float along_normal =
       (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
-  for (int a = branch.sticking ? 0 : 3; a < 4; ++a) {
-    if (a == 3 && along_normal == 0.0f) continue;
-    const float3 d = a == 3 ? node.n : (float3)(a == 0, a == 1, a == 2);
-    const float held = node.m * (a == 3 ? along_normal : 1.0f);
-    const float3 moment = cross(node.r, d);
-    const float g[6] = {moment.x, moment.y, moment.z, d.x, d.y, d.z};
-    ADD_OUTER(sums->stiffness, held, g);
-  }
+  if (along_normal == 0.0f) return;
+  const float3 moment = cross(node.r, node.n);
+  ADD_OUTER(sums, node.m * along_normal, moment, node.n);
 }
 
 // Newton iterations of the two-way solve. Contact is piecewise linear, so few are enough.

@@ -10,18 +10,36 @@
 // some hundred contacts. Repeatable: fixed order of sums. Host: src/soil/tools/contact.cpp.
 #include "soil/lanes/lanes.h"
 
-// Adds held g g^T to the upper triangle of a symmetric 6 x 6 matrix, row by row: the sums of
-// contact_node.h, sixteen words at a time.
-static inline void add_outer(float* matrix, float held, const float* g) {
-  const float16 all = (float16)(g[0], g[1], g[2], g[3], g[4], g[5], 0.0f, 0.0f, (float8)(0.0f));
-  const float16 rows = PICK(all, all, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 2, 3);
-  const float16 cols = PICK(all, all, 0, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 2, 3, 4, 5, 3);
-  vstore16(vload16(0, matrix) + held * rows * cols, 0, matrix);
-  const float4 rest = held * (float4)(g[3], g[3], g[4], g[4]) * (float4)(g[4], g[5], g[4], g[5]);
-  vstore4(vload4(4, matrix) + rest, 4, matrix);
-  matrix[20] += held * g[5] * g[5];
+// Sums over contacts as whole vectors, which stay in registers: moment and force in six words of
+// `wrench`, the upper triangle of the stiffness, row by row, in the words of the others.
+typedef struct {
+  float8 wrench;
+  float16 rows;
+  float4 rest;
+  float last;
+} LaneSums;
+
+// Adds held g g^T to the stiffness: words 0 .. 5 of g.
+INLINED void add_outer(LaneSums* sums, float held, float8 g) {
+  const float16 all = (float16)(g, g);
+  sums->rows += held * PICK(all, all, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 2, 3) *
+                PICK(all, all, 0, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 2, 3, 4, 5, 3);
+  sums->rest += held * g.s3344 * g.s4545;
+  sums->last += held * g.s5 * g.s5;
 }
-#define ADD_OUTER add_outer
+
+// Adds m g g^T with g = (r x axis, axis) for each axis of W.
+INLINED void add_axes(LaneSums* sums, float m, float3 r) {
+  add_outer(sums, m, (float8)(0.0f, r.z, -r.y, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f));
+  add_outer(sums, m, (float8)(-r.z, 0.0f, r.x, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f));
+  add_outer(sums, m, (float8)(r.y, -r.x, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f));
+}
+
+#define SUMS LaneSums
+#define ADD_WRENCH(sums, l, j) (sums)->wrench += (float8)((l), (j), 0.0f, 0.0f)
+#define ADD_OUTER(sums, held, moment, d) \
+  add_outer((sums), (held), (float8)((moment), (d), 0.0f, 0.0f))
+#define ADD_AXES add_axes
 
 #include "soil/contact_node.h"
 #include "soil/edge_node.h"
@@ -79,16 +97,24 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_solve(
   if (first[blocks] == 0) return;
   for (int t = 0; t < tool_count; ++t)
     for (int sweep = 0; sweep < CONTACT_SWEEPS && yields(tools + t); ++sweep) {
-      ContactSums total = NO_SUMS;
+      LaneSums all = {(float8)(0.0f), (float16)(0.0f), (float4)(0.0f), 0.0f};
       for (int near = 0; near < blocks; ++near) {
-        ContactSums sums = NO_SUMS;
+        LaneSums sums = {(float8)(0.0f), (float16)(0.0f), (float4)(0.0f), 0.0f};
         for (int c = 0; c < counts[near]; ++c) {
           global const NodeContact* contact = contacts + (size_t)near * BLOCK_CONTACTS + c;
           if (CONTACT_TOOL(contact->place) == t) add_sums(&sums, contact, tools, reach);
         }
-        for (int i = 0; i < 6; ++i) total.wrench[i] += sums.wrench[i];
-        for (int i = 0; i < 21; ++i) total.stiffness[i] += sums.stiffness[i];
+        all.wrench += sums.wrench;
+        all.rows += sums.rows;
+        all.rest += sums.rest;
+        all.last += sums.last;
       }
+      ContactSums total;
+      vstore3(all.wrench.s012, 0, total.wrench);
+      vstore3(all.wrench.s345, 1, total.wrench);
+      vstore16(all.rows, 0, total.stiffness);
+      vstore4(all.rest, 4, total.stiffness);
+      total.stiffness[20] = all.last;
       solve_twist(tools + t, &total);
     }
 }
