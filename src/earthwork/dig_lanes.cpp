@@ -119,9 +119,11 @@ SearchRules search_rules(const control::PitJob& job, const PitShape& pit, double
 
 FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bucket_width) {
   FanLimits out;
-  if (!digs_straight(job, pit, bucket_width)) return out;
+  const bool straight = digs_straight(job, pit, bucket_width);
+  // A trench with steep sides ends square, too.
+  out.square = straight || (!job.heap && job.area.batter > kSteep && !is_wide(pit, bucket_width));
+  if (!straight) return out;
   out.sector = kStraightSector;
-  out.square = true;
   out.aside = 0.5 * kStraightLane + kOverlap;
   out.outside = kOutside;
   out.nearest = kFaceBegins + kStraightEnd;

@@ -167,6 +167,27 @@ TEST(PitPlan, CutsOfSteepSidesAreSquareHoweverTheMachineStands) {
   EXPECT_LT(least, 1e-3) << "one is square to the sides";
 }
 
+TEST(PitPlan, CutsOfATrenchRunOutBeyondItsNearEndAtTheDepthOfTheFloor) {
+  // The curl's ramp would be left in the trench; the levelling pass runs out, too.
+  const heightfield::Ground ground = control::testing::flat_ground();
+  const auto planner = job_planners()(control::testing::ew180_like());
+  Grade step;
+  step.polygon = pit(3, 1, 0.4, 90).polygon;
+  step.depth = 0.4;
+  step.batter = radians(90);
+  step.dump_at = step.dump_to = Vec2(-3, 6.4);
+  const std::vector<control::JobCut> cuts =
+      planner->cuts(step.job(), make_pose(-7, 0, 0), control::GroundSurfaceView(ground));
+  int levelling = 0;
+  for (const control::JobCut& cut : cuts) {
+    levelling += cut.levels ? 1 : 0;
+    EXPECT_NEAR(cut.near.x(), -1.5 - 0.6, 0.16);
+    EXPECT_NEAR(cut.floor.front(), -0.4, 1e-6);
+  }
+  EXPECT_EQ(levelling, 1);
+  EXPECT_GE(cuts.size(), 2u);
+}
+
 TEST(PitPlan, DigsLongSteepPitsRowByRow) {
   // Longer than the reach in both directions: no station stands on dug ground.
   DigArea step = steep(9, 8, 0.4);
