@@ -55,8 +55,7 @@ void set_angle(scene::Soil& soil, const std::string& name, const std::string& te
     names.emplace_back(test_name);
     if (wanted == test_name) return set_friction(soil, test, number_of(name, text) * kDegree);
   }
-  throw refused("--set", name, "unknown test '" + wanted + "'",
-                "did you mean '" + nearest_name(names, wanted) + "'?");
+  throw refused("--set", name, "unknown test '" + wanted + "'", suggestion(wanted, names));
 }
 
 /// Sets a number of the soil by its name in scene files, in that file's unit.

@@ -205,9 +205,9 @@ void ElementReader::read_value_attribute(const Element& child,
     const auto found = std::find(names.begin(), names.end(), at->Value());
     index = static_cast<std::size_t>(found - names.begin());
     if (found != names.end()) continue;
-    std::string rule = std::string("unknown ") + attribute.name + "; must be one of";
-    for (const std::string& name : names) rule += " " + name;
-    faults_.error(child, at->Value(), rule, faults_.nearest(at->Value(), names));
+    // The remedy is the nearest name, or lists all.
+    faults_.error(child, at->Value(), std::string("unknown ") + attribute.name,
+                  faults_.nearest(at->Value(), names));
     index = 0;
   }
   attribute.choice.set(index);

@@ -236,6 +236,9 @@ ForceLimit RatedToolForce::limit() const {
 
 // The first missing part is reported: the others mostly follow from it.
 std::optional<Fault> tool_force_fault(const scene::Machine& machine) {
+  if (machine.buckets.empty())
+    return fault_of(machine, "navvy:bucket", "none", "the machine must have a bucket to dig with",
+                    "name a machine with one, such as ew180");
   const ArmJoints arm = arm_joints(machine);
   const std::array<std::pair<const char*, int>, 3> needed = {
       {{"boom_joint", arm.boom}, {"stick_joint", arm.stick}, {"bucket_joint", arm.bucket}}};
