@@ -8,11 +8,12 @@
 //
 // Parallel: one work-item per near block, except contact_solve, which has one work-item: a step has
 // some hundred contacts. Repeatable: fixed order of sums. Host: src/soil/tools/contact.cpp.
+#include "soil/lanes/contact_sums.h"
 #include "soil/lanes/lanes.h"
-// Before contact_node.h, which takes what is defined here.
+
+// Takes the sums of contact_sums.h.
 #include "soil/contact_node.h"
 #include "soil/edge_node.h"
-#include "soil/lanes/contact_sums.h"
 #include "soil/node.h"
 
 KERNEL_SHARE(kernel_share16, real)

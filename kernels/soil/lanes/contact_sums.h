@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums over the contacts of a tool in vectors; for soil/contact_node.h.
+// Sums over the contacts of a tool in vectors, for soil/contact_node.h, which is to be included
+// after this file.
 #ifndef NAVVY_KERNELS_SOIL_LANES_CONTACT_SUMS_H
 #define NAVVY_KERNELS_SOIL_LANES_CONTACT_SUMS_H
 
 #include "soil/lanes/lanes.h"
+
+#ifdef ADD_OUTER
+#error "include soil/lanes/contact_sums.h before soil/contact_node.h"
+#endif
 
 // Sums over contacts as whole vectors, which stay in registers: moment and force in six words of
 // `wrench`, the upper triangle of the stiffness, row by row, in the words of the others.
