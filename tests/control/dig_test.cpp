@@ -435,8 +435,14 @@ TEST(Dig, FillsByTheKindOfSoil) {
   EXPECT_EQ(fill(1.67, 0, 42), 0.7);        // crushed stone
   // Struck capacity and a heap at the angle of repose; the heaped capacity has one of 45 deg.
   const double struck = arm.struck_capacity() / arm.bucket().capacity;
-  EXPECT_NEAR(fill(1.13, 0, 31), struck + (1 - struck) * std::tan(radians(31)), 1e-12);
-  EXPECT_NEAR(fill(1.12, 0, 45), 1, 1e-12);
+  EXPECT_NEAR(fill(1.13, 0, 31), struck + (1 - struck) * std::sin(radians(31)), 1e-12);
+  // Given as repose or as strength, it is the same soil.
+  scene::Soil sand;
+  sand.swell = 1.13;
+  sand.cohesion = 0;
+  sand.repose_angle = std::atan(std::sin(radians(31)));
+  sand.has_repose_angle = true;
+  EXPECT_NEAR(usual_fill(sand, arm), fill(1.13, 0, 31), 1e-12);
 }
 
 TEST(Dig, FillsAsFullAsTheSceneSets) {

@@ -66,31 +66,46 @@ double narrow_blade(double depth, double speed, double courant, double cell) {
                   });
 }
 
+/// Returns the force on that blade in cells of 0.025 m, with 35 deg measured in `test` [N].
+double fine_blade(double depth, scene::FrictionTest test) {
+  return force_of({{"plane", 0},
+                   {"width", 0.2},
+                   {"depth", depth},
+                   {"speed", 0.45},
+                   {"from", 0.5},
+                   {"travel", 1.5}},
+                  0.025, [test](scene::Soil& soil) {
+                    soil.bank_density = 1440;
+                    lab::set_friction(soil, test, radians(35));
+                    scene::follow_friction_test(soil);
+                    soil.tool_friction_angle = radians(16.2);
+                  });
+}
+
 // The source gives 35 deg without naming its test; the measured forces should lie between both
 // readings.
 TEST(ToolLab, ReportsBothReadingsOfTheNarrowBladesFrictionAngle) {
   using scene::FrictionTest;
-  const double depths[] = {0.10, 0.15, 0.20, 0.25};
-  const char* measured[] = {"280 N measured", "505 N measured", "820 N measured",
-                            "1310 N measured"};
-  for (int i = 0; i < 4; ++i)
+  const char* source = "[Obermayr 2011] [docs/validation.md, Blades and earth pressure]";
+  const double depths[] = {0.10, 0.15, 0.20, 0.25}, measured[] = {280, 505, 820, 1310};
+  double error[2] = {};
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = "narrow blade, " + lab::short_text(depths[i]) + " m deep, 35 deg of ";
+    double force[2] = {};
     for (const FrictionTest test : {FrictionTest::kTriaxial, FrictionTest::kDirectShear}) {
-      const double force = force_of({{"plane", 0},
-                                     {"width", 0.2},
-                                     {"depth", depths[i]},
-                                     {"speed", 0.45},
-                                     {"from", 0.5},
-                                     {"travel", 1.5}},
-                                    0.025, [test](scene::Soil& soil) {
-                                      soil.bank_density = 1440;
-                                      lab::set_friction(soil, test, radians(35));
-                                      scene::follow_friction_test(soil);
-                                      soil.tool_friction_angle = radians(16.2);
-                                    });
-      print_value("narrow blade, " + lab::short_text(depths[i]) + " m deep, 35 deg of " +
-                      scene::name_of(test) + ", cells of 0.025 m [N]",
-                  force, measured[i], "[Obermayr 2011]");
+      const int k = test == FrictionTest::kTriaxial ? 0 : 1;
+      force[k] = fine_blade(depths[i], test);
+      error[k] += std::abs(force[k] / measured[i] - 1) / 4;
+      print_value(name + scene::name_of(test) + ", cells of 0.025 m [N]", force[k],
+                  lab::short_text(measured[i]) + " N measured", source);
     }
+    expect_between("measured force " + lab::short_text(depths[i]) +
+                       " m deep, 0 at the lower and 1 at the higher reading",
+                   (measured[i] - std::min(force[0], force[1])) / std::abs(force[0] - force[1]), 0,
+                   1, source);
+  }
+  expect_between("mean absolute error of the nearer reading", std::min(error[0], error[1]), 0, 0.12,
+                 source);
 }
 
 TEST(ToolLab, CutsAtSpeedsAndStepsWithANarrowBlade) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "session/soil_mass.h"
+#include "validation/loads.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
 
@@ -43,6 +44,8 @@ TEST(LoadTruck, TheBedHoldsFivePayloadsAndTheHeapHoldsTheBed) {
   const double heap = session::testing::mass_gained(world, Vec2(to - 5.5, -4), Vec2(to + 2.5, 4));
   expect_between("passes", static_cast<double>(session.cycles().size()), 5, 5, kSource);
   expect_between("sum of the payloads [kg]", brought, 3500, 5250, kSource);
+  expect_between("mean payload of all cycles / heaped bucket",
+                 mean_payload(session) / heaped_load(world.description()), 0.85, 1.1, kSource);
   expect_between("bed mass / sum of payloads", loaded / brought, 0.99, 1.01, kSource);
   expect_between("path of the truck [m]", to - from, 50, 51, kSource);
   expect_between("bed mass after the drive / before", before_tip / loaded, 0.99, 1.01, kSource);

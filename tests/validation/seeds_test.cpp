@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "record/summary.h"
 #include "session/soil_mass.h"
+#include "validation/loads.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
 #include "validation/trench_measure.h"
@@ -63,17 +64,6 @@ class Spread {
   std::vector<double> values_;
 };
 
-double mean_payload(const session::Session& session) {
-  double sum = 0;
-  for (const session::Cycle& cycle : session.cycles()) sum += cycle.payload_dump;
-  return sum / std::max<double>(1, static_cast<double>(session.cycles().size()));
-}
-
-double heaped_load(const scene::Scene& scene) {
-  const scene::Soil& soil = scene.soils.at(0);
-  return scene.machines.at(0).machine.buckets.at(0).capacity / soil.swell * soil.bank_density;
-}
-
 TEST(TrenchSeeds, TenTrenchesEndByThemselves) {
   int ended = 0;
   std::int64_t ledger = 0, crossings = 0;
@@ -107,7 +97,7 @@ TEST(TrenchSeeds, TenTrenchesEndByThemselves) {
   payload.judge("mean payload of all cycles / heaped bucket", 0.7, 1.1);
   cycles.judge("cycles", 3, 7);
   time.judge("time of the whole trench [s]", 10, 125);
-  overdug.judge("over-dug, share of design volume", 0, 0.10);
+  overdug.judge("over-dug, share of design volume", 0, 0.08);
   rate.judge("bank volume dug per hour [m3/h]", 90, 200);
   expect_between("largest ledger error [units]", static_cast<double>(ledger), 0, 0, kSource);
   expect_between("shell crossings", static_cast<double>(crossings), 0, 0, kSource);
@@ -137,7 +127,7 @@ TEST(TruckSeeds, TenTrucksAreLoadedAndTip) {
     std::fflush(stdout);
   }
   expect_between("trucks that are loaded and tip", ended, 9, kSeeds, kSource);
-  payload.judge("mean payload of all cycles / heaped bucket", 0.7, 1.1);
+  payload.judge("mean payload of all cycles / heaped bucket", 0.85, 1.1);
   bed.judge("bed mass / sum of payloads", 0.99, 1.01);
   expect_between("largest ledger error [units]", static_cast<double>(ledger), 0, 0, kSource);
   expect_between("shell crossings", static_cast<double>(crossings), 0, 0, kSource);

@@ -58,6 +58,32 @@ TEST_P(TipForce, IsTheBearingCapacityOfItsSoilInBothCells) {
   }
 }
 
+TEST(TipOfABlock, AgreesBetweenCells) {
+  // Two and four cells thick.
+  double coarse = 0;
+  for (const double cell : {0.1, 0.05}) {
+    const lab::Report report =
+        lab::run_rig("tip", {{"thickness", 0.2}, {"block", 1}}, [&](lab::Setup& s) {
+          s.cell = cell;
+          s.soil = soil_of("Loam");
+        });
+    const lab::Quantity& force = *report.find("tip force");
+    const std::string name =
+        "block of 0.2 m, cells of " + lab::short_text(cell) + " m, force on its end [kN]";
+    // The ratio judges two cells.
+    if (coarse == 0)
+      print_value(name, force.measured, "no tolerance", kSource);
+    else
+      expect_between(name, force.measured, force.low, force.high, kSource, force.expected);
+    EXPECT_EQ(lab::measured(report, "part on the edge"), 0);
+    if (coarse == 0)
+      coarse = force.measured;
+    else
+      expect_between("block of 0.2 m, force in cells of 0.05 m / of 0.1 m", force.measured / coarse,
+                     0.85, 1.15, kSource, 1);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Plates, TipForce,
                          testing::Values(TipCase{"Sand", 0.03}, TipCase{"Sand", 0.06},
                                          TipCase{"Loam", 0.03}, TipCase{"Loam", 0.06},

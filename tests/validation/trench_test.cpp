@@ -9,6 +9,7 @@
 #include "core/stopwatch.h"
 #include "record/summary.h"
 #include "validation/dig_meter.h"
+#include "validation/loads.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
 #include "validation/trench_measure.h"
@@ -26,11 +27,11 @@ double mean_cycle_time(const std::vector<session::Cycle>& cycles) {
 /// Reports the loads of the dig and where its energy goes. `volume`: bank volume [m3].
 void report_loads_and_energy(const DigMeter& meter, double volume) {
   const char* source = "the trench [docs/validation.md, Whole digs]";
-  print_value("lost from the fullest moment to lift-out, share of all loads", meter.lost(),
-              "0.10 wanted, no tolerance", source);
+  expect_between("lost from the fullest moment to lift-out, share of all loads", meter.lost(), 0,
+                 0.10, source);
   const auto per_volume = [volume](double joules) { return joules / volume / 1000; };
-  print_value("energy of drives and cylinders [kJ/m3]", per_volume(meter.work()),
-              "340 wanted, no tolerance", source);
+  expect_between("energy of drives and cylinders [kJ/m3]", per_volume(meter.work()), 0, 340,
+                 source);
   print_value("of it, cutting [kJ/m3]", per_volume(meter.cutting()), "no tolerance",
               "work of the bucket in the ground");
   print_value("of it, lifting the load [kJ/m3]", per_volume(meter.lifting()), "no tolerance",
@@ -75,10 +76,12 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   expect_between("floor within 0.10 m, share of length", trench.floor_share, 0.8, 1.0, source);
   expect_between("design volume removed, share", trench.inside_volume / trench.design_volume, 0.85,
                  1.0, source);
-  expect_between("over-dug, share of design volume", trench.overdug / trench.design_volume, 0, 0.10,
+  expect_between("over-dug, share of design volume", trench.overdug / trench.design_volume, 0, 0.08,
                  source);
   expect_between("bank volume [m3]", earth.bank_volume, 2.0, 20, source);
-  expect_between("cycles", static_cast<double>(session.cycles().size()), 3, 60, source);
+  EXPECT_TRUE(session.complete());
+  expect_between("time of the whole trench [s]", session.world().time(), 10, 125, source);
+  expect_between("cycles", static_cast<double>(session.cycles().size()), 3, 7, source);
   expect_between("loose / bank / swell",
                  earth.loose_volume / earth.bank_volume / description.soils[0].swell, 0.95, 1.05,
                  source);
@@ -102,16 +105,10 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, source);
   expect_between("machine's vertical speed [m/s]", fastest_rise, 0, 1.0,
                  "a machine does not jump [docs/validation.md, Machines]");
-  print_value("mean cycle [s]", mean_cycle_time(session.cycles()),
-              "13 .. 18 at 60 .. 90 deg of swing, no tolerance",
-              "plausibility [docs/validation.md, Whole digs]");
-  double payload = 0;
-  for (const session::Cycle& cycle : session.cycles())
-    payload += cycle.payload_dump / static_cast<double>(session.cycles().size());
-  const scene::Soil& loam = description.soils[0];
-  const double heaped =
-      description.machines.at(0).machine.buckets.at(0).capacity / loam.swell * loam.bank_density;
-  expect_between("mean payload of all cycles / heaped bucket", payload / heaped, 0.5, 1.1, source);
+  expect_between("mean cycle, 80 deg of swing [s]", mean_cycle_time(session.cycles()), 13, 15,
+                 source);
+  expect_between("mean payload of all cycles / heaped bucket",
+                 mean_payload(session) / heaped_load(description), 0.7, 1.1, source);
   double uplift = 0;
   for (const session::Cycle& cycle : session.cycles()) uplift = std::max(uplift, cycle.uplift_peak);
   expect_between("soil's push up on the bucket in a curl, less the load [N]", uplift, 0, 10e3,

@@ -66,10 +66,14 @@ Report run(const Setup& setup) {
   auto soil = site.fill(bed);
   site.rest(soil, 0.0);
   site.solver().insert(soil);
-  scene::Shell shell = blade(width, deep + 0.3);
-  shell.half_thickness = setup["thickness"] / 2;
-  shell.edge_share = 1;
-  shell.edge_bevel = radians(setup["bevel-deg"]);
+  const bool block = setup.is("block", "yes");
+  scene::Shell shell =
+      block ? closed_box(setup["thickness"], width, deep + 0.3) : blade(width, deep + 0.3);
+  if (!block) {
+    shell.half_thickness = setup["thickness"] / 2;
+    shell.edge_share = 1;
+    shell.edge_bevel = radians(setup["bevel-deg"]);
+  }
   const double above = 0.5 * cell;
   ToolDriver driver(site, shell, make_pose(setup["offset"] * cell, 0.07 * cell, above));
   const double hold = setup["hold"], path = deep + above;
@@ -118,7 +122,8 @@ Rig tip_rig() {
       "at `speed` to `depth`, and then held still for `hold`. The force at the end of the path is "
       "compared with the bearing capacity of a strip as wide as the plate is thick, from that with "
       "the residual to that with the whole cohesion. `offset` places the plate between planes of "
-      "the grid.";
+      "the grid. With `block` it is a closed body, whose end is a face and no edge: it needs more "
+      "than two cells of thickness.";
   rig.examples = {{"30 mm in loam", "--soil loam"},
                   {"60 mm in loam, finer cells", "--soil loam --thickness 0.06 --cell 0.05"}};
   rig.parameters = {
@@ -128,6 +133,7 @@ Rig tip_rig() {
       {"speed", 0.2, "m/s", "downwards", above(0)},
       {"hold", 4, "s", "at the end of the path", at_least(0)},
       {"bevel-deg", 180, "deg", "between the faces at the edge; 180: blunt", between(1, 180)},
+      yes_no("block", false, "a closed body", "a plate with free edges"),
       {"offset", 0.03, "cells", "of the plate from a plane of the grid", between(-1, 1)}};
   rig.default_soil = cohesive(28, 5000);
   rig.experiment = run;

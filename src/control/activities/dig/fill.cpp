@@ -18,7 +18,9 @@ constexpr double kRockSwell = 1.5, kLeastCohesion = 1500, kClayFriction = radian
 double usual_fill(const scene::Soil& soil, const ArmKinematics& arm) {
   if (soil.swell >= kRockSwell) return kBrokenRock;
   if (soil.cohesion >= kLeastCohesion) return soil.friction_angle < kClayFriction ? kClay : kLoam;
-  const double repose = soil.has_repose_angle ? soil.repose_angle : soil.friction_angle;
+  // The angle of repose of a friction angle in plane strain (scene/friction.h).
+  const double repose =
+      soil.has_repose_angle ? soil.repose_angle : std::atan(std::sin(soil.friction_angle));
   const double struck = arm.struck_capacity() / arm.bucket().capacity;
   if (!(struck > 0 && struck < 1)) return kClay;
   return struck + (1 - struck) * std::min(1.0, std::tan(repose));
