@@ -428,11 +428,11 @@ TEST(Dig, FillsByTheKindOfSoil) {
     soil.friction_angle = radians(friction);
     return usual_fill(soil, arm);
   };
-  EXPECT_EQ(fill(1.23, 6000, 30), 1.05);    // loam
-  EXPECT_EQ(fill(1.44, 3000, 29), 1.05);    // topsoil
-  EXPECT_EQ(fill(1.24, 20000, 20), 0.9);    // stiff clay
-  EXPECT_EQ(fill(1.25, 10000, 17.5), 0.9);  // wet clay
-  EXPECT_EQ(fill(1.67, 0, 42), 0.7);        // crushed stone
+  EXPECT_EQ(fill(1.23, 6000, 30), 1.05);     // loam
+  EXPECT_EQ(fill(1.44, 3000, 29), 1.05);     // topsoil
+  EXPECT_EQ(fill(1.24, 20000, 20), 0.9);     // stiff clay
+  EXPECT_EQ(fill(1.25, 10000, 17.5), 1.05);  // wet clay
+  EXPECT_EQ(fill(1.67, 0, 42), 0.7);         // crushed stone
   // Struck capacity and a heap at the angle of repose; the heaped capacity has one of 45 deg.
   const double struck = arm.struck_capacity() / arm.bucket().capacity;
   EXPECT_NEAR(fill(1.13, 0, 31), struck + (1 - struck) * std::sin(radians(31)), 1e-12);

@@ -7,17 +7,22 @@
 namespace navvy::control {
 namespace {
 
-// Fill factors of handbooks, near the middle of their ranges: loam 1.0 to 1.1, hard clay 0.8 to 0.9
-// and moist clay 0.9 to 1.05, poorly blasted rock 0.6 to 0.75.
-constexpr double kLoam = 1.05, kClay = 0.9, kBrokenRock = 0.7;
-// Limits between the kinds of soil: swell [-], cohesion [Pa], friction angle [rad].
-constexpr double kRockSwell = 1.5, kLeastCohesion = 1500, kClayFriction = radians(24);
+// Fill factors of handbooks: loam 1.0 to 1.1, moist clay 0.9 to 1.05, hard clay 0.8 to 0.9, poorly
+// blasted rock 0.6 to 0.75. Of a heap over the mouth some falls when the bucket leaves the ground:
+// in moist clay an aim of 0.9 brings 0.83, and 1.05 brings 0.90.
+constexpr double kLoam = 1.05, kMoistClay = 1.05, kClay = 0.9, kBrokenRock = 0.7;
+// Limits between the kinds of soil: swell [-], cohesion of any and of hard clay [Pa], friction
+// angle [rad].
+constexpr double kRockSwell = 1.5, kLeastCohesion = 1500, kHardClay = 15e3,
+                 kClayFriction = radians(24);
 
 }  // namespace
 
 double usual_fill(const scene::Soil& soil, const ArmKinematics& arm) {
   if (soil.swell >= kRockSwell) return kBrokenRock;
-  if (soil.cohesion >= kLeastCohesion) return soil.friction_angle < kClayFriction ? kClay : kLoam;
+  if (soil.cohesion >= kLeastCohesion && soil.friction_angle < kClayFriction)
+    return soil.cohesion < kHardClay ? kMoistClay : kClay;
+  if (soil.cohesion >= kLeastCohesion) return kLoam;
   // The angle of repose of a friction angle in plane strain (scene/friction.h).
   const double repose =
       soil.has_repose_angle ? soil.repose_angle : std::atan(std::sin(soil.friction_angle));
