@@ -81,6 +81,7 @@ void Digging::begin(const Observation& seen) {
   const double fill = dig_.has_fill ? dig_.fill : usual_fill(soil, arm_);
   m.scoop_volume = fill * arm_.bucket().capacity / soil.swell;
   m.full_mass = m.scoop_volume * soil.bank_density;
+  m.cohesionless = is_cohesionless(soil) ? 1 : 0;
   if (dig_.gain != nullptr) m.gain = *dig_.gain;
   aim_at(lacking(seen));
   Dig dig = dig_;
@@ -561,6 +562,7 @@ void DiggingMemory::visit(Archive& a) {
   a("curl_z", curl_z);
   a("scoop_volume", scoop_volume);
   a("full_mass", full_mass);
+  a("cohesionless", cohesionless);
   a("lift_before", lift_before);
   a("held_up", held_up);
   a("hindered", hindered);

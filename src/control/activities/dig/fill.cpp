@@ -18,11 +18,13 @@ constexpr double kRockSwell = 1.5, kLeastCohesion = 1500, kHardClay = 15e3,
 
 }  // namespace
 
+bool is_cohesionless(const scene::Soil& soil) { return soil.cohesion < kLeastCohesion; }
+
 double usual_fill(const scene::Soil& soil, const ArmKinematics& arm) {
   if (soil.swell >= kRockSwell) return kBrokenRock;
-  if (soil.cohesion >= kLeastCohesion && soil.friction_angle < kClayFriction)
+  if (!is_cohesionless(soil) && soil.friction_angle < kClayFriction)
     return soil.cohesion < kHardClay ? kMoistClay : kClay;
-  if (soil.cohesion >= kLeastCohesion) return kLoam;
+  if (!is_cohesionless(soil)) return kLoam;
   // The angle of repose of a friction angle in plane strain (scene/friction.h).
   const double repose =
       soil.has_repose_angle ? soil.repose_angle : std::atan(std::sin(soil.friction_angle));
