@@ -21,8 +21,6 @@ constexpr double kHeapSector = radians(120);
 // Least volume of a cut above the lowest layer / heaped capacity: buckets that go into trucks come
 // from where there is more than a load, which a heap's top has not; hollows take what there is.
 constexpr double kFullLoads = 1.2, kShares = 0.6;
-// The same in the lowest layer: what earlier scoops left between them fills a hollow, too.
-constexpr double kLastLoads = 0.3, kLastShares = 0.12;
 
 /// Returns the corners of the strip of a heap.
 scene::DesignArea heap_area(const control::JobHeap& heap) {
@@ -73,8 +71,7 @@ std::vector<control::JobCut> heap_cuts(const control::PitJob& job, const PitShap
   scoops.tolerance = 0;
   scoops.area.depth = heap.ground() - heap.lowest();
   return cut_fan(scoops, heap, reach, X_WB, surface,
-                 {kHeapSector, false, job.into_beds ? kFullLoads : kShares,
-                  job.into_beds ? kLastLoads : kLastShares});
+                 {kHeapSector, false, job.into_beds ? kFullLoads : kShares});
 }
 
 control::JobPlan plan_loading(const control::PitJob& job, const ArmReach& reach, const Pose& X_WB,

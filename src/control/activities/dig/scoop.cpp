@@ -2,6 +2,7 @@
 // Tip paths of a scoop in the vertical plane of the trench: down, along, curl.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "control/activities/dig/digging.h"
@@ -41,15 +42,17 @@ constexpr double kCurlSpeed = 0.6, kFair = 0.3;
 constexpr double kStretched = radians(4), kPull = 1.2, kStretchedPace = 0.3;
 // Share of the curl at which the bucket has turned.
 constexpr double kTurned = 0.7;
-/// How a bucket curls: duration [s], and the shares of it in which the edge cuts on and from which
-/// on it leaves the ground.
+/// How a bucket curls: duration [s], the shares of it in which the edge cuts on and from which on
+/// it leaves the ground, and the share of a load with which it no longer cuts on.
 struct Curl {
-  double time, cuts_on, rises;
+  double time, cuts_on, rises, most;
 };
 // Soil without cohesion runs out of a bucket that leaves the ground half turned, so it turns in its
 // cut and rises when it has turned. tuned: on the first slice of the trench in dry sand the usual
 // curl brings 711 kg, 2.6 / 0.7 / 0.7 brings 811, 3.4 / 0.8 / 0.7 brings 862, and this one 894 kg.
-constexpr Curl kUsual{1.7, 0.5, 0.4}, kCohesionless{4.2, 0.9, 0.7};
+// Broken rock would overfill it: 1220 kg without a limit, where 0.7 of it are aimed at, 895 kg.
+constexpr Curl kUsual{1.7, 0.5, 0.4, std::numeric_limits<double>::infinity()},
+    kCohesionless{4.2, 0.9, 0.7, 1.25};
 // Share of the curl from which on a bucket that has turned may be carried on.
 constexpr double kCarryOn = 0.94;
 // A curl on the spot pours out soil, so this much of the path to the near end is left to it,
@@ -187,8 +190,9 @@ bool Digging::curl(const Observation& seen, double dt, Command& out) {
   const double pace = std::max(least, m.tip.slow) * (stretched ? kStretchedPace : 1);
   const Curl& shape = m.cohesionless != 0 ? kCohesionless : kUsual;
   m.progress = std::min(1.0, m.progress + pace * dt / shape.time);
+  const bool fair = seen.payload > kFair * m.full_mass || m.s <= kCurlPath;
   const bool cuts_on =
-      m.progress < shape.cuts_on && (seen.payload > kFair * m.full_mass || m.s <= kCurlPath);
+      m.progress < shape.cuts_on && fair && seen.payload < shape.most * m.full_mass;
   const double nearer = std::max(cuts_on ? kCurlSpeed : 0.0, stretched ? kPull : 0.0);
   m.s = std::max(0.0, m.s - nearer * m.tip.slow * dt);
   m.tip.angle = mix(m.curl_angle, kCarry, smooth(m.progress / kTurned));
