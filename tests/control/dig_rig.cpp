@@ -44,7 +44,7 @@ Dig trench() {
   return dig;
 }
 
-heightfield::Ground flat_ground(double cell) {
+heightfield::Ground flat_ground(double cell, double cohesion) {
   heightfield::Ground::Setup setup;
   setup.nx = static_cast<int>(24 / cell);
   setup.ny = static_cast<int>(20 / cell);
@@ -53,6 +53,7 @@ heightfield::Ground flat_ground(double cell) {
   setup.datum = -4;
   scene::Soil loam;
   loam.name = "loam";
+  loam.cohesion = cohesion;
   setup.soils = {loam};
   setup.layers = {{"loam", 10}};
   setup.surface = [](int, int) { return 0.0; };

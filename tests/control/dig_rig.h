@@ -20,8 +20,8 @@ namespace navvy::control::testing {
 /// 0).
 Dig trench();
 
-/// Flat ground of loam, 24 x 20 m about the origin, 4 m deep.
-heightfield::Ground flat_ground(double cell = 0.1);
+/// Flat ground of loam, 24 x 20 m about the origin, 4 m deep; `cohesion` [Pa].
+heightfield::Ground flat_ground(double cell = 0.1, double cohesion = scene::Soil().cohesion);
 
 class DigRig {
  public:

@@ -180,6 +180,31 @@ TEST(Dig, CurlsOnlyNearTheDiggingAngle) {
   EXPECT_LT(rig.steepest_curl, with_cut(ArmKinematics(ew180_like()), -kPi + kAttack) + radians(6));
 }
 
+TEST(Dig, CutsOnWhileTheBucketTurnsInSoilWithoutCohesion) {
+  // Paths of the bucket's edge towards the machine while it curls [m], and durations [s].
+  double path[2] = {}, time[2] = {};
+  for (const int loose : {0, 1}) {
+    Dig dig = trench();
+    dig.max_cycles = 1;
+    const scene::Machine machine = ew180_like();
+    DigRig rig(machine, program({dig}), make_pose(-4, 0, 0));
+    rig.ground = flat_ground(0.1, loose != 0 ? 0 : scene::Soil().cohesion);
+    const auto edge = [&] {
+      return (rig.engine->link(0, machine.link_index("bucket")).X_WL * machine.buckets[0].p_tip)
+          .x();
+    };
+    while (rig.time < 60 && rig.op.phase() != "curl") rig.step();
+    const double from = edge(), begun = rig.time;
+    while (rig.time < 60 && rig.op.phase() == "curl") rig.step();
+    ASSERT_EQ(rig.op.phase(), "lift");
+    path[loose] = from - edge();
+    time[loose] = rig.time - begun;
+  }
+  std::printf("path %.2f and %.2f m, %.1f and %.1f s\n", path[0], path[1], time[0], time[1]);
+  EXPECT_GT(path[1], path[0] + 0.2);
+  EXPECT_GT(time[1], 2 * time[0]);
+}
+
 TEST(Dig, LoadsABedToAStatedMassByEqualPasses) {
   // 2.7 m3 of bank soil are 4.2 t; a full bucket holds 1.03 t.
   for (const double load : {1500.0, 3400.0}) {
