@@ -210,8 +210,7 @@ TriangleMesh import(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
-// Coin crashes on shapes that name normals or colours which are not there, and is not made for
-// several threads: the child has one.
+// Coin crashes on some damaged files, and is not made for several threads: the child has one.
 TriangleMesh read_inventor(const std::string& path) {
   const std::string bytes = mesh_bytes(path);
   return read_in_child(path, "Coin", [&] { return import(path, bytes); });

@@ -44,7 +44,7 @@ struct DiggingMemory {
   /// Bank volume (`scoop_volume` [m3]) and mass (`full_mass` [kg]) of the soil in a bucket that
   /// counts as full.
   double scoop_volume = 0, full_mass = 0;
-  /// 1 if that soil has no cohesion, else 0.
+  /// 1 if that soil is cohesionless (is_cohesionless in fill.h), else 0.
   std::int64_t cohesionless = 0;
   /// Mass that the current scoop shall bring when a bed is loaded to a stated mass [kg].
   double wanted = 0;

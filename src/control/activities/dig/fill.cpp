@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/friction.h"
+
 namespace navvy::control {
 namespace {
 
@@ -25,9 +27,10 @@ double usual_fill(const scene::Soil& soil, const ArmKinematics& arm) {
   if (!is_cohesionless(soil) && soil.friction_angle < kClayFriction)
     return soil.cohesion < kHardClay ? kMoistClay : kClay;
   if (!is_cohesionless(soil)) return kLoam;
-  // The angle of repose of a friction angle in plane strain (scene/friction.h).
-  const double repose =
-      soil.has_repose_angle ? soil.repose_angle : std::atan(std::sin(soil.friction_angle));
+  // Repose does not depend on dilatancy.
+  const double repose = soil.has_repose_angle ? soil.repose_angle
+                                              : scene::angle_in_test(scene::FrictionTest::kRepose,
+                                                                     soil.friction_angle, 0);
   const double struck = arm.struck_capacity() / arm.bucket().capacity;
   if (!(struck > 0 && struck < 1)) return kClay;
   return struck + (1 - struck) * std::min(1.0, std::tan(repose));

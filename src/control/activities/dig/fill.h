@@ -8,7 +8,8 @@
 
 namespace navvy::control {
 
-/// Returns true for sand, gravel and broken rock, which stand at their angle of repose only.
+/// Returns true for soil with a cohesion below 1.5 kPa, as sand, gravel and broken rock, which
+/// stand at their angle of repose only.
 bool is_cohesionless(const scene::Soil& soil);
 
 /// Returns the bucket fill factor that a dig aims at in `soil` unless its scene sets one: loose
@@ -16,9 +17,9 @@ bool is_cohesionless(const scene::Soil& soil);
 ///
 /// The kind of soil follows from its values, in this order: broken rock swells by half or more
 /// (0.7); sand and gravel have hardly any cohesion and stand in a heap on the bucket's mouth at
-/// their angle of repose, where the heaped capacity has a slope of 1:1; hard clay
-/// has little friction and a cohesion from 15 kPa on (0.9); all other soil, moist clay too, counts
-/// as loam (1.05).
+/// their angle of repose, where the heaped capacity has a slope of 1:1; hard clay has little
+/// friction and a cohesion from 15 kPa on (0.9); all other soil, moist clay too, counts as loam
+/// (1.05).
 double usual_fill(const scene::Soil& soil, const ArmKinematics& arm);
 
 /// Returns the soil of the surface at `p` (x, y in W [m]); a default one outside of the site.

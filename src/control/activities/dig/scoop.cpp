@@ -50,7 +50,7 @@ struct Curl {
 // Soil without cohesion runs out of a bucket that leaves the ground half turned, so it turns in its
 // cut and rises when it has turned. tuned: on the first slice of the trench in dry sand the usual
 // curl brings 711 kg, 2.6 / 0.7 / 0.7 brings 811, 3.4 / 0.8 / 0.7 brings 862, and this one 894 kg.
-// Broken rock would overfill it: 1220 kg without a limit, where 0.7 of it are aimed at, 895 kg.
+// Without a limit broken rock overfills it: 1220 kg, where 0.7 of the bucket are aimed at, 895 kg.
 constexpr Curl kUsual{1.7, 0.5, 0.4, std::numeric_limits<double>::infinity()},
     kCohesionless{4.2, 0.9, 0.7, 1.25};
 // Share of the curl from which on a bucket that has turned may be carried on.
