@@ -140,31 +140,32 @@ static inline float3 impulse_on(global const NodeContact* contact, global const 
 #define NO_SUMS \
   { {0.0f}, {0.0f}, 0.0f }
 
-// Sums over contacts, and what adds to them: a schedule may have its own. ADD_WRENCH adds the
-// moment l and the force j. ADD_OUTER adds held g g^T with g = (moment, d) to the upper triangle of
-// the symmetric 6 x 6 stiffness, row by row. ADD_AXES adds m g g^T for each axis of W in turn, with
-// g = (r x axis, axis).
-#ifndef ADD_OUTER
+// Sums over contacts, and what adds to them; a schedule may have its own, with the same functions.
+#ifndef SUMS
 #define SUMS ContactSums
-#define ADD_WRENCH(sums, l, j)                                      \
-  do {                                                              \
-    const float w_[6] = {(l).x, (l).y, (l).z, (j).x, (j).y, (j).z}; \
-    for (int i_ = 0; i_ < 6; ++i_) (sums)->wrench[i_] += w_[i_];    \
-  } while (0)
-#define ADD_OUTER(sums, held, moment, d)                                           \
-  do {                                                                             \
-    const float g_[6] = {(moment).x, (moment).y, (moment).z, (d).x, (d).y, (d).z}; \
-    int k_ = 0;                                                                    \
-    for (int row_ = 0; row_ < 6; ++row_)                                           \
-      for (int col_ = row_; col_ < 6; ++col_)                                      \
-        (sums)->stiffness[k_++] += (held)*g_[row_] * g_[col_];                     \
-  } while (0)
-#define ADD_AXES(sums, m, r)                                  \
-  for (int a_ = 0; a_ < 3; ++a_) {                            \
-    const float3 axis_ = (float3)(a_ == 0, a_ == 1, a_ == 2); \
-    const float3 moment_ = cross((r), axis_);                 \
-    ADD_OUTER((sums), (m), moment_, axis_);                   \
+
+// Adds a moment and a force to the sums.
+static inline void add_wrench(SUMS* sums, float3 moment, float3 force) {
+  const float w[6] = {moment.x, moment.y, moment.z, force.x, force.y, force.z};
+  for (int i = 0; i < 6; ++i) sums->wrench[i] += w[i];
+}
+
+// Adds held g g^T with g = (moment, d) to the upper triangle of the symmetric 6 x 6 stiffness, row
+// by row.
+static inline void add_outer(SUMS* sums, float held, float3 moment, float3 d) {
+  const float g[6] = {moment.x, moment.y, moment.z, d.x, d.y, d.z};
+  int k = 0;
+  for (int row = 0; row < 6; ++row)
+    for (int col = row; col < 6; ++col) sums->stiffness[k++] += held * g[row] * g[col];
+}
+
+// Adds m g g^T for each axis of W in turn, with g = (r x axis, axis).
+static inline void add_axes(SUMS* sums, float m, float3 r) {
+  for (int a = 0; a < 3; ++a) {
+    const float3 axis = (float3)(a == 0, a == 1, a == 2);
+    add_outer(sums, m, cross(r, axis), axis);
   }
+}
 #endif
 
 // Adds a contact to the sums for its tool: the wrench of the impulse J (moment about the tool's
@@ -180,15 +181,14 @@ static inline void add_sums(SUMS* sums, global const NodeContact* contact, globa
   if (!branch.acts) return;
   // The sums are of impulses on soil; the tool gets the opposite ones.
   const float3 l = cross(node.r, j);
-  ADD_WRENCH(sums, l, j);
+  add_wrench(sums, l, j);
   // Three axes when the contact sticks, which also cover the normal, and a correction along the
   // normal. Each adds m p g g^T with g = (r x d, d) and the part p that is passed on.
-  if (branch.sticking) ADD_AXES(sums, node.m, node.r);
+  if (branch.sticking) add_axes(sums, node.m, node.r);
   const float along_normal =
       (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
   if (along_normal == 0.0f) return;
-  const float3 moment = cross(node.r, node.n);
-  ADD_OUTER(sums, node.m * along_normal, moment, node.n);
+  add_outer(sums, node.m * along_normal, cross(node.r, node.n), node.n);
 }
 
 // Newton iterations of the two-way solve. Contact is piecewise linear, so few are enough.

@@ -6,7 +6,7 @@
 
 #include "soil/lanes/lanes.h"
 
-#ifdef ADD_OUTER
+#ifdef SUMS
 #error "include soil/lanes/contact_sums.h before soil/contact_node.h"
 #endif
 
@@ -19,8 +19,15 @@ typedef struct {
   float last;
 } LaneSums;
 
-// Adds held g g^T to the stiffness: words 0 .. 5 of g.
-INLINED void add_outer(LaneSums* sums, float held, float8 g) {
+#define SUMS LaneSums
+
+// As the functions of soil/contact_node.h.
+INLINED void add_wrench(SUMS* sums, float3 moment, float3 force) {
+  sums->wrench += (float8)(moment, force, 0.0f, 0.0f);
+}
+
+INLINED void add_outer(SUMS* sums, float held, float3 moment, float3 d) {
+  const float8 g = (float8)(moment, d, 0.0f, 0.0f);
   const float16 all = (float16)(g, g);
   sums->rows += held * PICK(all, all, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 2, 3) *
                 PICK(all, all, 0, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 2, 3, 4, 5, 3);
@@ -28,17 +35,10 @@ INLINED void add_outer(LaneSums* sums, float held, float8 g) {
   sums->last += held * g.s5 * g.s5;
 }
 
-// Adds m g g^T with g = (r x axis, axis) for each axis of W.
-INLINED void add_axes(LaneSums* sums, float m, float3 r) {
-  add_outer(sums, m, (float8)(0.0f, r.z, -r.y, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f));
-  add_outer(sums, m, (float8)(-r.z, 0.0f, r.x, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f));
-  add_outer(sums, m, (float8)(r.y, -r.x, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f));
+INLINED void add_axes(SUMS* sums, float m, float3 r) {
+  add_outer(sums, m, (float3)(0.0f, r.z, -r.y), (float3)(1.0f, 0.0f, 0.0f));
+  add_outer(sums, m, (float3)(-r.z, 0.0f, r.x), (float3)(0.0f, 1.0f, 0.0f));
+  add_outer(sums, m, (float3)(r.y, -r.x, 0.0f), (float3)(0.0f, 0.0f, 1.0f));
 }
-
-#define SUMS LaneSums
-#define ADD_WRENCH(sums, l, j) (sums)->wrench += (float8)((l), (j), 0.0f, 0.0f)
-#define ADD_OUTER(sums, held, moment, d) \
-  add_outer((sums), (held), (float8)((moment), (d), 0.0f, 0.0f))
-#define ADD_AXES add_axes
 
 #endif  // NAVVY_KERNELS_SOIL_LANES_CONTACT_SUMS_H
