@@ -15,8 +15,9 @@ constexpr double kMoved = 0.05, kTurned = radians(2);  // [m], [rad]
 constexpr double kPatience = 5;                        // [s]
 // Patience with a machine that moves but does not advance: long enough for a turn on the spot.
 constexpr double kLongPatience = 20;  // [s]
-// Tyres that push sideways with this share of the weight push against an obstacle: on any slope,
-// without other contacts, their forces add up to the opposite of the weight, which is vertical.
+// Tyres or tracks that push sideways with this share of the weight push against an obstacle: on any
+// slope, without other contacts, their forces add up to the opposite of the weight, which is
+// vertical.
 constexpr double kPush = 0.03;
 
 }  // namespace
@@ -66,8 +67,8 @@ StepState ProgressMonitor::look(const Observation& seen, const scene::Machine& m
   const std::string stood =
       "it has stood for " + number_text(stuck_, "s") + ", " + metres(left) + " from the target";
   if (push > kPush * machine.total_mass() * kGravity) {
-    reason =
-        stood + ": something holds it while its tyres push with " + number_text(push / 1000, "kN");
+    reason = stood + ": something holds it while its drive pushes with " +
+             number_text(push / 1000, "kN");
     return StepState::kBlocked;
   }
   reason = stood + (rolled_ > kMoved ? ": its wheels have spun for " + metres(rolled_)

@@ -193,8 +193,8 @@ TEST(Drive, IsBlockedByAnObstacle) {
     EXPECT_EQ(report.state, StepState::kBlocked);
     EXPECT_NEAR(report.end, 5, 0.05);
     EXPECT_EQ(report.reason,
-              "it has stood for 5.00 s, 5.00 m from the target: something holds it while its tyres "
-              "push with 25.00 kN");
+              "it has stood for 5.00 s, 5.00 m from the target: something holds it while its drive "
+              "pushes with 25.00 kN");
   }
 }
 
