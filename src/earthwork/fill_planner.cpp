@@ -34,7 +34,7 @@ constexpr double kHollow = 0.08;      // least volume of a hollow that is filled
 constexpr double kLeastScoop = 0.25;  // share of the heaped capacity
 // The first station stands so much farther back, and soil that lies too high so far around the hole
 // is taken off: the digging has left a mound at its near end, where the machine is to drive [m].
-constexpr double kApron = 1, kBorder = 0.8;
+constexpr double kApron = 1, kBorder = 1.4;
 constexpr double kLeastFault = 0.05;            // volume that is missing [m3]
 constexpr std::int64_t kLevelKeys = 1'000'000;  // keys of levelling are so far from those of scoops
 
@@ -165,7 +165,8 @@ std::vector<control::JobCut> fill_cuts(const control::PitJob& job, const ArmReac
   const Fill fill(job, surface);
   const double capacity = reach.arm().bucket().capacity;
   std::vector<control::JobCut> out;
-  if (const std::optional<Hollow> hollow = largest_hollow(fill, job, reach.arm(), X_WB, surface)) {
+  const std::optional<Hollow> hollow = largest_hollow(fill, job, reach.arm(), X_WB, surface);
+  if (hollow) {
     out = heap_cuts(job, fill.heap, reach, X_WB, surface);
     const Pose X_WS = X_WB * reach.arm().X_BS();
     const Vec2 centre = X_WS.translation().head<2>();
@@ -189,11 +190,13 @@ std::vector<control::JobCut> fill_cuts(const control::PitJob& job, const ArmReac
   control::PitJob back = job;
   back.dump_from = job.heap->from;
   back.dump_to = job.heap->to;
-  const std::optional<Vec2> place =
-      spoil_place(back, reach.arm(), X_WB * reach.arm().X_BS(), surface);
+  // Where the heap has no more scoops, this soil fills the hollow.
+  const Vec2 place = hollow ? hollow->p
+                            : spoil_place(back, reach.arm(), X_WB * reach.arm().X_BS(), surface)
+                                  .value_or(job.heap->from);
   for (control::JobCut& one : out) {
     one.key += kLevelKeys;
-    one.dump_at = place.value_or(job.heap->from);
+    one.dump_at = place;
   }
   return out;
 }

@@ -17,7 +17,7 @@ using control::metres;
 using control::place_text;
 
 // A heap is dug in this sector, to both sides of straight ahead [rad].
-constexpr double kHeapSector = radians(120);
+constexpr double kHeapSector = radians(150);
 // Least volume of a cut above the lowest layer / heaped capacity: buckets that go into trucks come
 // from where there is more than a load, which a heap's top has not; hollows take what there is.
 constexpr double kFullLoads = 1.2, kShares = 0.6;

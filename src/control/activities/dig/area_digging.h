@@ -98,7 +98,8 @@ class AreaDigging final : public ActivityWith<AreaMemory> {
   bool turn_aside(const Observation& seen);
   /// Selects the next cut at the present station; returns false if there is none.
   bool select_cut(const Observation& seen);
-  /// Returns true if the present cut, which is over, brought less than a third of a load each time.
+  /// Returns true if the present cut, which is over, brought less than a share of a load each time:
+  /// a third, less where cuts are small.
   bool brought_little(const Observation& seen) const;
   /// Returns true if the machine stands at the pose.
   bool stands_at(const Observation& seen, const PlanePose& pose) const;
