@@ -5,8 +5,8 @@ excavation planners of the Terra kind read and `navvy map --format terra` writes
 
 Each patch of cells to be dug becomes a dig_area; with steep sides each rectangle of it, as these
 are dug from beside them. The spoil goes to a windrow beside it, on cells that may be dumped on. Of
-those that `navvy check` accepts it is the one for which the machine stands least often. Occupied
-cells become walls.
+those that `navvy check` accepts it is one whose stations stand clear of what has been dug, and of
+these the one for which the machine stands least often. Occupied cells become walls.
 
     python3 dig_plan_map.py FOLDER --number 1 --cell 1 --depth 1 --out plan.sdf
     navvy run plan.sdf
@@ -20,8 +20,8 @@ ASIDE = (3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 8.0, 8.5, 9.0, 9.5, 10.0, 10.5)
 BEHIND = 8.0
 # Sides that are steeper are dug square to them [deg].
 STEEP = 75
-# Free ground around the machine at the start [m].
-AROUND = 4.0
+# Free ground around the machine at the start, and between a station and what has been dug [m].
+AROUND, APART = 4.0, 2.5
 
 
 def read(folder, name, number, shape=None):
@@ -72,6 +72,22 @@ def rectangles(patch):
         one[y0:y1, x0:x1] = True
         left &= ~one
         yield one
+
+
+def overlapping(part, done):
+    """Returns a rectangle with the row or column of cells beyond each side along which all cells
+    have been dug: what falls over that side is dug, too."""
+    (y0, x0), (y1, x1) = numpy.argwhere(part).min(0), numpy.argwhere(part).max(0) + 1
+    out, grid = part.copy(), numpy.pad(done, 1)
+    for rows, columns in (
+        (slice(y0 - 1, y0), slice(x0, x1)),
+        (slice(y1, y1 + 1), slice(x0, x1)),
+        (slice(y0, y1), slice(x0 - 1, x0)),
+        (slice(y0, y1), slice(x1, x1 + 1)),
+    ):
+        if grid[rows.start + 1 : rows.stop + 1, columns.start + 1 : columns.stop + 1].all():
+            out[rows, columns] = True
+    return out
 
 
 def outline(patch):
@@ -194,15 +210,26 @@ def scene(shape, steps, start, boxes, options):
 """
 
 
+def near(place, mask, cell):
+    """Returns true if a cell of a mask is closer than APART to the place [m]."""
+    cells = numpy.argwhere(mask)[:, ::-1] * cell
+    gaps = numpy.maximum(numpy.maximum(cells - place, place - cells - cell), 0)
+    return bool((numpy.hypot(*gaps.T) < APART).any())
+
+
 def stations(text, options):
-    """Writes the scene and asks `navvy check`. Returns how often the machine stands, and what is
-    said if that is an error."""
+    """Writes the scene and asks `navvy check`. Returns the places where the machine stands, step by
+    step, and what is said if that is an error."""
     pathlib.Path(options.out).write_text(text)
     done = subprocess.run(
         [options.navvy, "check", options.out], capture_output=True, text=True, check=False
     )
     said = done.stdout + done.stderr
-    return len(re.findall(r": station \d+ at", said)), "" if done.returncode == 0 else said
+    found = re.findall(r"step (\d+) .*: station \d+ at \(([-0-9.]+), ([-0-9.]+)\)", said)
+    places = {}
+    for step, x, y in found:
+        places.setdefault(int(step), []).append((float(x), float(y)))
+    return places, "" if done.returncode == 0 else said
 
 
 def main():
@@ -232,19 +259,25 @@ def main():
     steep = options.batter > STEEP
     for patch in patches(dig):
         outline(patch)  # refuses one with a hole
+    dug = numpy.zeros_like(dig)
     for patch in itertools.chain(*(rectangles(p) if steep else [p] for p in patches(dig))):
-        corners, fault, found = outline(patch), "nothing beside it may be dumped on", []
+        corners = outline(overlapping(patch, dug))
+        fault, found = "nothing beside it may be dumped on", []
         for line in windrows(corners, may_dump, options.cell):
             text = scene(image.shape, steps + [(corners, line)], start, boxes, options)
-            count, fault = stations(text, options)
-            if not fault:
-                found.append((count, line))
-                if not steep:
-                    break
+            places, fault = stations(text, options)
+            if fault:
+                continue
+            here = places.get(len(steps) + 1, [])
+            found.append((sum(near(p, dug, options.cell) for p in here), len(here), line))
+            if not steep:
+                break
         if not found:
             sys.exit(f"no windrow suits the dig with corners {corners}: {fault}")
-        # Of those with the fewest stations the nearest.
-        steps.append((corners, min(found, key=lambda one: one[0])[1]))
+        # Of those whose stations stand clear of what has been dug, with the fewest stations, the
+        # nearest.
+        steps.append((corners, min(found, key=lambda one: one[:2])[2]))
+        dug |= patch
     stations(scene(image.shape, steps, start, boxes, options), options)
     print(f"{options.out}: {len(steps)} digs; run it with: {options.navvy} run {options.out}")
 

@@ -99,6 +99,26 @@ TEST_F(Examples, AnotherProcessFollowsTheScansOfARun) {
   EXPECT_NE(text.find("robot/laser/ranges"), std::string::npos);
 }
 
+// An L: the leg is dug after the bar, together with the row of the bar that it ends at.
+TEST_F(Examples, ADigOfAPlanMapReachesIntoTheOneBesideIt) {
+  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "NumPy is missing";
+  const std::string look =
+      "import sys, numpy as n\n"
+      "sys.path.insert(0, sys.argv[1])\n"
+      "import dig_plan_map as d\n"
+      "a = n.zeros((9, 9), bool)\n"
+      "a[1:4, 1:8] = a[4:7, 1:4] = True\n"
+      "bar, leg = d.rectangles(a)\n"
+      "assert bar.sum() == 21 and leg.sum() == 9, (bar, leg)\n"
+      "assert (d.overlapping(bar, n.zeros_like(a)) == bar).all()\n"
+      "grown = d.overlapping(leg, bar)\n"
+      "assert grown[3:7, 1:4].all() and grown.sum() == 12, grown\n";
+  EXPECT_EQ(wait_for(test::start(
+                {"/usr/bin/python3", {"-B", "-c", look, source_dir() + "/examples/planner"}, {}})),
+            0);
+}
+
 // Two digs and the only places for their spoil; then one with a hole.
 TEST_F(Examples, APlanMapBecomesASceneThatTheCheckAccepts) {
   if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
