@@ -116,21 +116,29 @@ def peers(rows):
         "a processor second",
         "Navvy / it",
         "by processor time",
+        "real-time factor",
+        "Navvy / it",
+        "by processor time",
     )
     ours = {}
     for row in rows:
         work = float(row["particles"]) * float(row["steps"]) / 1e6
-        rate = [work / float(row[column]) for column in ("wall_s", "processor_s")]
+        simulated = float(row["step_ms"]) * float(row["steps"]) / 1e3
+        spent = [float(row[column]) for column in ("wall_s", "processor_s")]
+        rate = [amount / time for amount in (work, simulated) for time in spent]
         first = ours.setdefault(row["particles"], rate)
         yield (
             " ".join((row["code"], row["version"])),
             row["particles"],
             row["threads"],
             "%.3g" % float(row["step_ms"]),
-            "%.2f" % rate[0],
-            "%.2f" % rate[1],
+            "%.3g" % rate[0],
+            "%.3g" % rate[1],
             "%.1f" % (first[0] / rate[0]),
             "%.1f" % (first[1] / rate[1]),
+            "%.3g" % rate[2],
+            "%.1f" % (first[2] / rate[2]),
+            "%.1f" % (first[3] / rate[3]),
         )
 
 
@@ -324,7 +332,9 @@ def selftest():
             "file,date,state,note\nn.csv,2026-01-01,abc,Quiet.\np.csv,2026-01-01,abc,\n",
         )
         other = table("peers", os.path.join(folder, "p.csv"))
-        assert other[-1] == "| Other 3 | 1000 | 1 | 0.02 | 0.10 | 0.10 | 10.0 | 5.0 |", other
+        assert other[-1] == (
+            "| Other 3 | 1000 | 1 | 0.02 | 0.1 | 0.1 | 10.0 | 5.0 | 0.002 | 850.0 | 425.0 |"
+        ), other
         page = put("p.md", "# T\n<!-- generated: begin; native: n.csv -->\nold\n%s\nend\n" % END)
         text = rewritten(page)
         # Two copies of the loop: 10 M a thread; the OpenCL step: 15 M a thread; by processor time

@@ -3,13 +3,14 @@
 """Measures Navvy beside other codes in one run: compare.py NAVVY ROWS.csv [--rounds N].
 
 A block of sand collapses in each: as MLS-MPM with a Drucker-Prager law in Taichi and Warp, with the
-cells, particles and time step of Navvy's case `soil_collapse_no_tool`; as grains with friction in
-LAMMPS and YADE, which need time steps eighty times shorter. Taichi and Warp come from PyPI into a
-virtual environment that this script makes; LAMMPS and YADE are Debian packages (apt-get install
-lammps yade). A code that is missing is named and left out. Codes run in turn, --rounds times; the
-least wall time and the least processor time count.
-Rates are particle-steps per second: a step of one code is not the work of a step of another one, so
-the column step_ms stands beside them.
+cells, particles and time step of Navvy's case `soil_collapse_no_tool`; with the same cells and
+particles by Newton's implicit MPM, whose steps are ten times longer; as grains with friction in
+LAMMPS and YADE, which need time steps eighty times shorter. Taichi, Warp and Newton come from PyPI
+into a virtual environment that this script makes (Newton's first run compiles for minutes); LAMMPS
+and YADE are Debian packages (apt-get install lammps yade). A code that is missing is named and left
+out. Codes run in turn, --rounds times; the least wall time and the least processor time count.
+Rates are particle-steps per second. A step of one code is not the work of a step of another one, so
+the real-time factor, simulated time over wall time, stands beside them.
 """
 import argparse
 import csv
@@ -23,7 +24,12 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-PACKAGES = ["taichi==1.7.4", "warp-lang==1.19.0", "numpy"]
+# Of each code in Python: our script, the module that it imports and the PyPI package of that.
+SCRIPTS = {
+    "Taichi": ("taichi_mpm.py", "taichi", "taichi==1.7.4"),
+    "Warp": ("warp_mpm.py", "warp", "warp-lang==1.19.0"),
+    "Newton": ("newton_mpm.py", "newton", "newton==1.8.0"),
+}
 COLUMNS = (
     "code,version,threads,particles,steps,step_ms,wall_s,processor_s,first_steps_s,"
     "copy_bytes_per_s,fma_flops_per_s"
@@ -32,8 +38,9 @@ COLUMNS = (
 SIZES = {"27k": 30, "216k": 60}
 # Largest block of a code whose set-up of larger ones takes minutes.
 LARGEST = {"YADE": "27k"}
-# Particle-steps that a run of each code takes, so that each takes some seconds.
-WORK = {"Taichi": 2e6, "Warp": 2e6, "LAMMPS": 8e6, "YADE": 1e6}
+# Particle-steps that a run of each code takes, so that each takes some seconds. Newton's simulate
+# about as much of the collapse as Navvy's.
+WORK = {"Taichi": 2e6, "Warp": 2e6, "Newton": 3e5, "LAMMPS": 8e6, "YADE": 1e6}
 
 
 def output_of(command, **variables):
@@ -114,22 +121,27 @@ def run_yade(along, steps):
 
 
 def made_environment(folder):
-    """Makes the virtual environment if it lacks a package; returns its Python, None without one."""
+    """Makes the virtual environment and installs what it lacks; returns its Python and the names
+    of the codes that it has.
+    """
     python = folder / "bin" / "python"
-    check = [python, "-c", "import taichi, warp, numpy"]
-    if python.is_file() and subprocess.run(check, capture_output=True, check=False).returncode == 0:
-        return python
-    try:
-        output_of([sys.executable, "-m", "venv", folder])
-        output_of([python, "-m", "pip", "install", "-q", *PACKAGES])
-    except (OSError, subprocess.CalledProcessError) as error:
-        detail = getattr(error, "output", None) or str(error)
-        print(
-            "compare.py: left out Taichi and Warp, which need the PyPI packages %s:\n%s"
-            % (" ".join(PACKAGES), detail.strip())
-        )
-        return None
-    return python
+    names = []
+    for name, (_, module, package) in SCRIPTS.items():
+        check = [python, "-c", "import numpy, " + module]
+        try:
+            if not python.is_file():
+                output_of([sys.executable, "-m", "venv", folder])
+            if subprocess.run(check, capture_output=True, check=False).returncode != 0:
+                output_of([python, "-m", "pip", "install", "-q", package, "numpy"])
+        except (OSError, subprocess.CalledProcessError) as error:
+            detail = getattr(error, "output", None) or str(error)
+            print(
+                "compare.py: left out %s, which needs the PyPI packages %s and numpy:\n%s"
+                % (name, package, detail.strip())
+            )
+        else:
+            names.append(name)
+    return python, names
 
 
 def codes(navvy, environment):
@@ -139,12 +151,11 @@ def codes(navvy, environment):
         return max(5, round(WORK[name] / along**3))
 
     out = {"Navvy": lambda size, along: run_navvy(navvy, size)}
-    python = made_environment(environment)
-    if python:
-        for name, script in (("Taichi", "taichi_mpm.py"), ("Warp", "warp_mpm.py")):
-            out[name] = lambda size, along, name=name, script=script: run_python(
-                python, script, along**3, steps(name, along)
-            )
+    python, names = made_environment(environment)
+    for name in names:
+        out[name] = lambda size, along, name=name: run_python(
+            python, SCRIPTS[name][0], along**3, steps(name, along)
+        )
     for name, program, run in (("LAMMPS", "lmp", run_lammps), ("YADE", "yade", run_yade)):
         if shutil.which(program):
             out[name] = lambda size, along, name=name, run=run: run(along, steps(name, along))
@@ -169,18 +180,27 @@ def rates(row):
     return work / row["wall_s"], work / row["processor_s"]
 
 
+def paces(row):
+    """Returns simulated time over wall time and over processor time."""
+    simulated = row["step_ms"] * row["steps"] / 1e3
+    return simulated / row["wall_s"], simulated / row["processor_s"]
+
+
 def print_table(rows):
-    """Prints the rates, and those of Navvy over them."""
-    heads = ("code", "particles", "threads", "step ms", "M/s, wall", "M/s, processor", "Navvy over")
-    form = "%-7s %9s %8s %8s %10s %14s %12s %12s"
-    print(form % (*heads, "by processor"))
+    """Prints the rates, and those of Navvy over them; then the same of simulated time."""
+    over = ("Navvy over", "by processor")
+    form = "%-7s %9s %8s %8s" + " %15s %15s %12s %12s" * 2
+    heads = ("code", "particles", "threads", "step ms", "M/s, wall", "M/s, processor", *over)
+    print(form % (*heads, "real time, wall", "processor", *over))
     ours = {}
     for row in rows:
         # Navvy's row of each size comes first.
-        here = rates(row)
+        here = rates(row), paces(row)
         first = ours.setdefault(row["particles"], here)
-        cells = ["%.3g" % row["step_ms"], *("%.2f" % rate for rate in here)]
-        cells += ["%.1f" % (mine / other) for mine, other in zip(first, here)]
+        cells = ["%.3g" % row["step_ms"]]
+        for mine, other in zip(first, here):
+            cells += ["%.3g" % value for value in other]
+            cells += ["%.1f" % (one / two) for one, two in zip(mine, other)]
         print(form % (row["code"], row["particles"], row["threads"], *cells))
 
 

@@ -144,6 +144,12 @@ class Peers(unittest.TestCase):
         ]
         self.assertRegex(printed(peers.print_table, rows), r"Other .* 5\.0 +3\.0\n")
 
+    def test_longer_steps_count_as_simulated_time(self):
+        row = {"threads": 1, "particles": 1000, "steps": 10, "wall_s": 0.1, "processor_s": 0.2}
+        rows = [{**row, "code": "Navvy", "step_ms": 1.5}, {**row, "code": "Other", "step_ms": 15}]
+        said = printed(peers.print_table, rows)
+        self.assertRegex(said, r"Other .* 1\.0 +1\.0 +1\.5 +0\.75 +0\.1 +0\.1\n")
+
     def test_result_of_a_script_is_its_line_of_json(self):
         self.assertEqual(peers.reported('noise\nPEER {"wall_s": 2.0}\n'), {"wall_s": 2.0})
 
@@ -152,7 +158,8 @@ class Peers(unittest.TestCase):
             blocked = pathlib.Path(folder) / "file"
             blocked.write_text("")
             said = printed(peers.made_environment, blocked / "environment")
-        self.assertIn("left out Taichi and Warp, which need the PyPI packages taichi", said)
+        for name, package in (("Taichi", "taichi"), ("Warp", "warp-lang"), ("Newton", "newton")):
+            self.assertIn("left out %s, which needs the PyPI packages %s=" % (name, package), said)
 
 
 class GpuCheck(unittest.TestCase):
