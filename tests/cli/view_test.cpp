@@ -59,15 +59,20 @@ TEST_F(View, DoesNotChangeTheRun) {
   // Paused at once, so that the run does not end before a page has seen it.
   EXPECT_EQ(post(at, R"({"pause":true})").status, 200);
   Events events(at);
-  until(events, [](const json& row) { return row.at("live").at("paused") == true; });
+  const json paused =
+      until(events, [](const json& row) { return row.at("live").at("paused") == true; });
+  ASSERT_TRUE(paused.is_object());
+  const long step = paused.at("live").at("step");
   EXPECT_EQ(post(at, R"({"step":3})").status, 200);
+  const json after =
+      until(events, [&](const json& row) { return row.at("live").at("step") == step + 3; });
+  EXPECT_TRUE(after.is_object());
   EXPECT_EQ(post(at, R"({"pause":false})").status, 200);
-  int frames = 0;
-  json last;
-  for (last = events.next(); last.is_object(); last = events.next()) ++frames;
+  // How many frames follow depends on how fast the run ends.
+  json last = events.next();
+  while (last.is_object()) last = events.next();
   EXPECT_TRUE(events.is_end());
   EXPECT_NE(last.get<std::string>().find(out()), std::string::npos) << last;
-  EXPECT_GT(frames, 1);
   EXPECT_EQ(test::wait_for(process), 0) << complained();
   EXPECT_EQ(summary().at("state_hash"), alone);
 }
