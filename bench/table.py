@@ -117,8 +117,8 @@ def peers(rows):
         "Navvy / it",
         "by processor time",
         "real-time factor",
-        "Navvy / it",
-        "by processor time",
+        "Navvy / it, simulated time",
+        "simulated, by processor time",
     )
     ours = {}
     for row in rows:

@@ -191,7 +191,7 @@ def print_table(rows):
     over = ("Navvy over", "by processor")
     form = "%-7s %9s %8s %8s" + " %15s %15s %12s %12s" * 2
     heads = ("code", "particles", "threads", "step ms", "M/s, wall", "M/s, processor", *over)
-    print(form % (*heads, "real time, wall", "processor", *over))
+    print(form % (*heads, "real time, wall", "by processor", *over))
     ours = {}
     for row in rows:
         # Navvy's row of each size comes first.

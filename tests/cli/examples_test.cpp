@@ -30,6 +30,10 @@ class Examples : public ProgramRun {
                      (directory_ / "example").string(), (directory_ / "example_errors").string()}));
   }
   std::string printed() const { return text_of(directory_ / "example"); }
+  /// Returns true if Debian's Python has NumPy.
+  static bool has_numpy() {
+    return std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") == 0;
+  }
 };
 
 // The crate stands in the way twice, at places that the program does not know.
@@ -75,8 +79,7 @@ TEST_F(Examples, AProgramOrdersDigsAndIsToldWhyOneIsRefused) {
 }
 
 TEST_F(Examples, AnotherProcessFollowsTheScansOfARun) {
-  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "NumPy is missing";
+  if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
   const pid_t run = start({"run", "paper/diff_physics", "--no-render", "--duration", "20", "--out",
                            out(), "--publish-sensors", "tcp:0"});
   const std::string before = "readings of sensors on port ";
@@ -101,8 +104,7 @@ TEST_F(Examples, AnotherProcessFollowsTheScansOfARun) {
 
 // An L: the leg is dug after the bar, together with the row of the bar that it ends at.
 TEST_F(Examples, ADigOfAPlanMapReachesIntoTheOneBesideIt) {
-  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "NumPy is missing";
+  if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
   const std::string look =
       "import sys, numpy as n\n"
       "sys.path.insert(0, sys.argv[1])\n"
@@ -121,8 +123,7 @@ TEST_F(Examples, ADigOfAPlanMapReachesIntoTheOneBesideIt) {
 
 // Two digs and the only places for their spoil; then one with a hole.
 TEST_F(Examples, APlanMapBecomesASceneThatTheCheckAccepts) {
-  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "NumPy is missing";
+  if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
   const std::string make =
       "import sys, numpy as n, pathlib as p\n"
       "f = p.Path(sys.argv[1])\n"

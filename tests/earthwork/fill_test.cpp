@@ -91,6 +91,30 @@ TEST(FillPlan, NamesAHeapInTheFillOneOutOfReachAndOneThatIsTooSmall) {
       << text_of(plan_of(fill(6), ground));
 }
 
+// The heap is used up: a mound at the near end, in the machine's way, goes into the hollow.
+TEST(FillPlan, FillsAHollowFromAMoundOnceTheHeapIsUsedUp) {
+  heightfield::Ground ground = control::testing::flat_ground();
+  const auto columns = [&](double x0, double x1, const auto& use) {
+    for (double x = x0 + 0.05; x < x1; x += 0.1)
+      for (double y = -0.45; y < 0.5; y += 0.1) use(ground.column_at(x, y));
+  };
+  std::vector<heightfield::SoilLayer> taken;
+  columns(-2.9, -2.1, [&](const Vec2i& at) { ground.take_above(at.x(), at.y(), -0.4, taken); });
+  heightfield::SoilLayer layer;
+  layer.mass = mass_units(0.3 * 0.1 * 0.1 * 1700);
+  columns(-4.4, -3.9, [&](const Vec2i& at) { ground.put(at.x(), at.y(), layer); });
+  const auto planner = job_planners()(control::testing::ew180_like());
+  const std::vector<control::JobCut> cuts =
+      planner->cuts(fill(6).job(), make_pose(-9, 0, 0), control::GroundSurfaceView(ground));
+  ASSERT_FALSE(cuts.empty());
+  for (const control::JobCut& cut : cuts) {
+    EXPECT_NEAR(cut.dump_at.x(), -2.5, 0.6);
+    EXPECT_NEAR(cut.dump_at.y(), 0, 0.6);
+    EXPECT_LT(cut.near.x(), -3.9);
+    EXPECT_GT(cut.far.x(), -4.4);
+  }
+}
+
 control::testing::DigRig rig_of(const DigArea& dig, const Backfill& step) {
   scene::Program program;
   program.steps = {dig, step};
