@@ -5,10 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "control/dig_pose.h"
+
 namespace navvy::control {
 namespace {
 
 constexpr int kSamples = 64;  // of a move: at most 0.5 m apart in a half turn at full reach
+// Least height of the opened bucket over the ground on its way [m].
+constexpr double kOver = 0.15;
 
 }  // namespace
 
@@ -27,6 +31,32 @@ double least_clearance(const ArmMove& move, double since, const ArmKinematics& a
     }
   }
   return least;
+}
+
+double lowest_point(const BucketPose& pose, const ArmKinematics& arm, const Pose& X_WS) {
+  return X_WS.translation().z() + pose.height - arm.below_tip(pose.angle);
+}
+
+double highest_on_arc(const CarrySwing& swing, double share, const SurfaceView& surface) {
+  const Vec2 axis = swing.X_WS.translation().head<2>();
+  const double reach = (swing.dump_at - axis).norm();
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kSamples; ++i) {
+    const double angle = swing.from + share * (swing.to - swing.from) * i / kSamples;
+    const Vec3 p = swing.X_WS * Vec3(reach * std::cos(angle), reach * std::sin(angle), 0);
+    highest = std::max(highest, heap_height(surface, p.head<2>()));
+  }
+  return highest;
+}
+
+void raise_over_arc(const CarrySwing& swing, const ArmKinematics& arm, const SurfaceView& surface,
+                    ArmAngles& q) {
+  const double way = highest_on_arc(swing, 1, surface) + kOver - swing.dump_height;
+  if (way <= heap_height(surface, swing.dump_at)) return;
+  ArmAngles raised = q;
+  double clearance = 0;
+  if (dump_pose(arm, swing.X_WS, swing.dump_at, way, swing.dump_height, raised, clearance))
+    q = raised;
 }
 
 }  // namespace navvy::control

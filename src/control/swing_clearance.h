@@ -14,4 +14,25 @@ namespace navvy::control {
 double least_clearance(const ArmMove& move, double since, const ArmKinematics& arm,
                        const Pose& X_WS, const SurfaceView& surface);
 
+/// Returns the height in W [m] of the bucket's lowest point at a pose of the bucket.
+double lowest_point(const BucketPose& pose, const ArmKinematics& arm, const Pose& X_WS);
+
+/// A swing with a load to where the bucket opens.
+struct CarrySwing {
+  double from = 0, to = 0;       ///< angles of the swing joint [rad]
+  Vec2 dump_at = Vec2::Zero();   ///< where the soil falls in W [m]
+  double dump_height = 0;        ///< of the opened bucket over the heap, as wanted [m]
+  Pose X_WS = Pose::Identity();  ///< pose of the swing axis frame S in W
+};
+
+/// Returns the height in W [m] of the highest ground under the bucket in the first `share` of a
+/// swing; its reach is that of the place where it opens.
+double highest_on_arc(const CarrySwing& swing, double share, const SurfaceView& surface);
+
+/// Raises `q`, the angles of boom, stick and bucket at the end of a swing, where the ground on its
+/// way is higher than at its end: the bucket passes over it, also when it comes back opened. Leaves
+/// them as they are if the arm cannot be so high there.
+void raise_over_arc(const CarrySwing& swing, const ArmKinematics& arm, const SurfaceView& surface,
+                    ArmAngles& q);
+
 }  // namespace navvy::control

@@ -262,16 +262,22 @@ void Digging::start_carry(const Observation& seen) {
   Vec2 place = dump_place(seen);
   const Pose X_WS = m.stance.swing_frame(arm_);
   // The heap grows from cycle to cycle: the bucket opens over its present height.
-  const ArmAngles q = opening_pose(seen, X_WS, place);
+  ArmAngles q = opening_pose(seen, X_WS, place);
   const SwingPoint over = swing_point(X_WS, Vec3(place.x(), place.y(), heap_at(seen, place)));
   const double swing = arc_to(over.swing, place - X_WS.translation().head<2>());
   place_.handover.dug_at = place_.handover.q[0];
   place_.handover.is_out = true;
+  with_surface(seen, [&](const SurfaceView& surface) {
+    const CarrySwing way{place_.handover.dug_at, swing, place, dig_.dump_height, X_WS};
+    raise_over_arc(way, arm_, surface, q);
+    // The swing begins before the arm is up.
+    m.edge = std::max(plan_.highest_beside(surface, m.s) + kOverEdge,
+                      std::min(highest_on_arc(way, kUpBefore, surface),
+                               lowest_point(arm_.forward(q), arm_, X_WS)));
+  });
   const double turn = std::min(swing_acceleration(place_, q, seen.payload, seen),
                                swing_acceleration(place_, place_.arm_angles(), seen.payload, seen));
   m.move.start(place_, with_arm(swing, q), seen, {1.2, 0, turn, true});
-  m.edge = kOverEdge +
-           with_surface(seen, [&](const SurfaceView& s) { return plan_.highest_beside(s, m.s); });
   m.held = seen.payload;
   m.held_since = 0;
   enter(kLift);
@@ -284,9 +290,7 @@ BucketPose Digging::bucket_pose(const Observation& seen) const {
 }
 
 bool Digging::is_above(const Observation& seen, double z) const {
-  const BucketPose pose = bucket_pose(seen);
-  const double over_ring = pose.height - arm_.below_tip(pose.angle);
-  return m.stance.swing_frame(arm_).translation().z() + over_ring >= z;
+  return lowest_point(bucket_pose(seen), arm_, m.stance.swing_frame(arm_)) >= z;
 }
 
 bool Digging::lift(const Observation& seen) {
