@@ -15,6 +15,8 @@
 namespace navvy::coupling {
 namespace {
 
+constexpr double kStep = 0.0017;  // about as long as in a run [s]
+
 /// Heights of base links above those at the start.
 class Risen {
  public:
@@ -66,8 +68,7 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   Ruts ruts(ground);
   TrackRuts track_ruts(ground, ruts);
   const GroundView view(ground, ground.setup().soils, &ruts);
-  // The longest step that a run may take; without soil no shorter one is needed.
-  const double dt = scene.solver.max_step;
+  const double dt = std::min(kStep, scene.solver.max_step);
   const int steps = static_cast<int>(std::ceil(time / dt));
   Risen risen(*engine, of.size());
   for (int step = 0; step < steps; ++step) {

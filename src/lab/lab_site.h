@@ -51,7 +51,7 @@ struct SiteOptions {
   /// If true, particles that lie too close together are moved apart [docs/soil.md, crowding].
   bool crowding = true;
   /// Courant number that limits the time step: step x sound speed / cell size.
-  double courant = 0.5;
+  double courant = 2.0 / 3;
   /// If true, the soil's energy account is computed for the report.
   bool energy = false;
   /// Numerical constants of the particle method.

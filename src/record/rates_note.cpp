@@ -57,6 +57,9 @@ std::string rates_note(const sim::World& world, double control_rate, double part
     parts.push_back(
         "a whole number of base steps makes up a control step; without it they would be " +
         number("%.4g", 1e3 * world.longest_step()) + " ms");
+  const scene::Scene& scene = world.description();
+  if (!scene.soils.empty() && world.longest_step() >= scene.solver.max_step * (1 - kWhole))
+    parts.push_back("max_step_s of the solver allows no longer ones, though the soil does");
   if (!nearest.empty())
     parts.push_back(list(nearest) + (nearest.size() == 1 ? " takes" : " take") +
                     " the nearest step, at most " + number("%.2g", 0.5e3 * dt) +

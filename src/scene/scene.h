@@ -23,8 +23,8 @@ namespace navvy::scene {
 /// Settings of the soil solver. None of them is a property of a soil.
 struct SolverSettings {
   double cell = 0.1;         ///< edge of a soil cell and of a ground column [m]
-  double courant = 0.5;      ///< time step / longest stable time step [-]
-  double max_step = 0.0017;  ///< longest base step [s]
+  double courant = 2.0 / 3;  ///< time step / longest stable time step [-]
+  double max_step = 0.005;  ///< longest base step, whatever the soil allows [s]
   /// Rate of a controller [1/s]; the base step is chosen so that the period of this rate is a whole
   /// number of base steps. 0: no controller.
   double control_rate = 0;
@@ -38,7 +38,7 @@ struct SolverSettings {
   void describe(Fields& f) {
     f("cell_m", cell, {0.005, 2}, "Edge of a soil cell and of a ground column.");
     f("courant", courant, {0.05, 1}, "Time step / longest stable time step.");
-    f("max_step_s", max_step, {1e-6, 0.02}, "Longest base step.");
+    f("max_step_s", max_step, {1e-6, 0.02}, "Longest base step, whatever the soil allows.");
     // It acts through the base step alone, which the state holds: a controller may resume the
     // snapshot of a run without one.
     f("control_rate_hz", control_rate, {0.001, 1e5},

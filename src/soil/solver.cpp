@@ -15,9 +15,9 @@ namespace navvy::soil {
 namespace {
 
 /// A step that exceeds the limit by this factor is not split: the limit has a Courant number of
-/// 0.5, and contact and law are stable to 0.8 [docs/soil.md, time step]. Otherwise a base step
+/// 2/3, and contact and law are stable to 0.8 [docs/soil.md, time step]. Otherwise a base step
 /// chosen for a slower tool would cost two half steps.
-constexpr double kMostStep = 1.3;
+constexpr double kMostStep = 1.2;
 
 /// A tool that is farther than this from all columns need not be followed closely by the exchange
 /// [cells]: in the steps to the next check a tool of 3 m/s moves by little more than a cell of

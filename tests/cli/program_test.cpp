@@ -471,6 +471,15 @@ TEST_F(Program, IsDrivenAtTheRequestedRate) {
             2);
 }
 
+TEST_F(Program, SaysThatTheSceneLimitsItsStep) {
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.02", "--set",
+                 "solver.max_step_s=0.001", "--out", out()}),
+            0)
+      << complained();
+  EXPECT_NE(complained().find("max_step_s of the solver allows no longer ones"), std::string::npos)
+      << complained();
+}
+
 /// Results depend on the control rate only through the base step: a controller that answers every
 /// exchange and sets nothing gets the run that the scene makes by itself at the same rate.
 TEST_F(Program, IsTheSameWithoutAControllerWhenTheSceneSetsTheRate) {

@@ -18,7 +18,7 @@ namespace {
 using testing::flat;
 using testing::run;
 
-constexpr double kStep = 0.0017;  // the longest base step of a scene
+constexpr double kStep = 0.0017;  // about the base step of a scene [s]
 const Vec3 kDown(0, 0, -kGravity);
 
 /// Returns a solid box of steel.

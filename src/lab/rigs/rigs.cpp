@@ -7,7 +7,7 @@ namespace {
 /// Adds the parameters of every rig: a result that depends on the step is not a result.
 std::vector<Rig> with_common_parameters(std::vector<Rig> list) {
   for (Rig& rig : list)
-    rig.parameters.push_back({"courant", 0.5, "",
+    rig.parameters.push_back({"courant", 0.66667, "",
                               "the step, as a share of the cell over the speed of sound",
                               between(0.01, 1)});
   return list;
