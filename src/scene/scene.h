@@ -24,7 +24,7 @@ namespace navvy::scene {
 struct SolverSettings {
   double cell = 0.1;         ///< edge of a soil cell and of a ground column [m]
   double courant = 2.0 / 3;  ///< time step / longest stable time step [-]
-  double max_step = 0.005;  ///< longest base step, whatever the soil allows [s]
+  double max_step = 0.0025;  ///< longest base step, whatever the soil allows [s]
   /// Rate of a controller [1/s]; the base step is chosen so that the period of this rate is a whole
   /// number of base steps. 0: no controller.
   double control_rate = 0;
