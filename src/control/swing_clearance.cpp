@@ -14,6 +14,13 @@ constexpr int kSamples = 64;  // of a move: at most 0.5 m apart in a half turn a
 // Least height of the opened bucket over the ground on its way [m].
 constexpr double kOver = 0.15;
 
+/// Returns the height in W [m] of the tip after the bucket has opened at the angles `q`.
+double opened_height(const ArmAngles& q, const ArmKinematics& arm, const Pose& X_WS) {
+  const BucketPose at = arm.forward(q);
+  const double pin = at.height - arm.bucket_length() * std::sin(at.angle);
+  return X_WS.translation().z() + pin + arm.bucket_length() * std::sin(kOpen);
+}
+
 }  // namespace
 
 double least_clearance(const ArmMove& move, double since, const ArmKinematics& arm,
@@ -49,14 +56,20 @@ double highest_on_arc(const CarrySwing& swing, double share, const SurfaceView& 
   return highest;
 }
 
-void raise_over_arc(const CarrySwing& swing, const ArmKinematics& arm, const SurfaceView& surface,
-                    ArmAngles& q) {
-  const double way = highest_on_arc(swing, 1, surface) + kOver - swing.dump_height;
-  if (way <= heap_height(surface, swing.dump_at)) return;
+void pass_over(const ArmKinematics& arm, const SurfaceView& surface, CarrySwing& swing,
+               ArmAngles& q) {
+  const double wanted = highest_on_arc(swing, 1, surface) + kOver;
+  if (opened_height(q, arm, swing.X_WS) >= wanted) return;
   ArmAngles raised = q;
   double clearance = 0;
-  if (dump_pose(arm, swing.X_WS, swing.dump_at, way, swing.dump_height, raised, clearance))
+  if (dump_pose(arm, swing.X_WS, swing.dump_at, wanted, 0, raised, clearance)) {
     q = raised;
+    return;
+  }
+  if (arm.swing_limited()) return;
+  CarrySwing other = swing;
+  other.to += std::copysign(2 * kPi, swing.from - swing.to);
+  if (opened_height(q, arm, swing.X_WS) >= highest_on_arc(other, 1, surface) + kOver) swing = other;
 }
 
 }  // namespace navvy::control

@@ -21,7 +21,6 @@ double lowest_point(const BucketPose& pose, const ArmKinematics& arm, const Pose
 struct CarrySwing {
   double from = 0, to = 0;       ///< angles of the swing joint [rad]
   Vec2 dump_at = Vec2::Zero();   ///< where the soil falls in W [m]
-  double dump_height = 0;        ///< of the opened bucket over the heap, as wanted [m]
   Pose X_WS = Pose::Identity();  ///< pose of the swing axis frame S in W
 };
 
@@ -29,10 +28,10 @@ struct CarrySwing {
 /// swing; its reach is that of the place where it opens.
 double highest_on_arc(const CarrySwing& swing, double share, const SurfaceView& surface);
 
-/// Raises `q`, the angles of boom, stick and bucket at the end of a swing, where the ground on its
-/// way is higher than at its end: the bucket passes over it, also when it comes back opened. Leaves
-/// them as they are if the arm cannot be so high there.
-void raise_over_arc(const CarrySwing& swing, const ArmKinematics& arm, const SurfaceView& surface,
-                    ArmAngles& q);
+/// Changes a swing on whose way the ground is too high for the bucket, which also comes back
+/// opened: raises `q`, the angles of boom, stick and bucket at its end, or, where the arm cannot be
+/// so high there, turns the other way round. Leaves a swing as it is if neither helps.
+void pass_over(const ArmKinematics& arm, const SurfaceView& surface, CarrySwing& swing,
+               ArmAngles& q);
 
 }  // namespace navvy::control

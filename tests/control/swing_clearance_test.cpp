@@ -39,7 +39,6 @@ class SwingClearance : public ::testing::Test {
     swing.from = kFrom;
     swing.to = kTo;
     swing.dump_at = kReach * Vec2(std::cos(kTo), std::sin(kTo));
-    swing.dump_height = kDumpHeight;
     swing.X_WS = arm.X_BS();
     swing.X_WS.translation().head<2>().setZero();
     double possible = 0;
@@ -49,11 +48,12 @@ class SwingClearance : public ::testing::Test {
   double over(double height) {
     const heightfield::Ground ground = ridge(height);
     ArmAngles q = low;
-    raise_over_arc(swing, arm, GroundSurfaceView(ground), q);
+    way = swing;
+    pass_over(arm, GroundSurfaceView(ground), way, q);
     return lowest_point(arm.forward(q), arm, swing.X_WS);
   }
   const ArmKinematics arm{testing::ew180_like()};
-  CarrySwing swing;
+  CarrySwing swing, way;
   ArmAngles low{};
 };
 
@@ -72,9 +72,13 @@ TEST_F(SwingClearance, LeavesTheArmWhereTheWayIsFree) {
 TEST_F(SwingClearance, RaisesTheArmOverARidge) {
   EXPECT_GT(over(1), over(0) + 0.4);
   EXPECT_GT(over(1.6), 1.6 + 0.15);
+  EXPECT_EQ(way.to, kTo);
 }
 
-TEST_F(SwingClearance, LeavesTheArmBelowARidgeThatItCannotPass) { EXPECT_EQ(over(9), over(0)); }
+TEST_F(SwingClearance, TurnsTheOtherWayRoundWhereTheArmIsNotHighEnough) {
+  EXPECT_EQ(over(9), over(0));
+  EXPECT_NEAR(way.to, kTo - 2 * kPi, 1e-9);
+}
 
 }  // namespace
 }  // namespace navvy::control

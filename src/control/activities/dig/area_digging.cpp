@@ -27,7 +27,8 @@ constexpr double kAside = 0.4, kTurned = radians(6);
 // strip is levelled at most so often: a full bucket leaves the rest of it.
 constexpr int kMostRepeats = 3, kMostPasses = 3;
 // Share of a heaped bucket that is little; after so many such cuts in a row a station is dug. A
-// strip is not levelled again after a pass that brought less than the other share.
+// strip is not levelled again, nor a strip of a heap asked again, after a pass that brought less
+// than the other share.
 constexpr double kLittle = 0.3, kLevelled = 0.08;
 constexpr int kMostPoor = 6;
 // A strip of a heap gives at most so many scoops to one station.
@@ -239,16 +240,15 @@ bool AreaDigging::brought_little(const Observation& seen) const {
   const auto cycles = static_cast<double>(place_.handover.cycles - m.cycles);
   const scene::Soil soil = surface_soil(*seen.ground, 0.5 * (m.cut.near + m.cut.far));
   const double full = place_.arm->bucket().capacity / soil.swell * soil.bank_density;
-  const double little = m.cut.levels      ? kLevelled
-                        : m.cut.worth > 0 ? std::min(kLittle, m.cut.worth)
-                                          : kLittle;
+  const double little = m.cut.levels || m.cut.fill > 0 ? kLevelled
+                        : m.cut.worth > 0              ? std::min(kLittle, m.cut.worth)
+                                                       : kLittle;
   return m.brought <= little * cycles * full;
 }
 
 void AreaDigging::end_cut(const Observation& seen, bool failed, const std::string& reason) {
   if (m.cut.fill > 0) {
-    // A strip of a heap that gave no scoop is not asked again.
-    if (failed || m.cycles == place_.handover.cycles)
+    if (failed || m.cycles == place_.handover.cycles || brought_little(seen))
       m.begun.insert(m.begun.end(), kMostScoops, m.cut.key);
   } else if (m.cut.levels) {
     if (brought_little(seen)) m.begun.insert(m.begun.end(), kMostPasses, m.cut.key);

@@ -264,16 +264,18 @@ void Digging::start_carry(const Observation& seen) {
   // The heap grows from cycle to cycle: the bucket opens over its present height.
   ArmAngles q = opening_pose(seen, X_WS, place);
   const SwingPoint over = swing_point(X_WS, Vec3(place.x(), place.y(), heap_at(seen, place)));
-  const double swing = arc_to(over.swing, place - X_WS.translation().head<2>());
+  double swing = arc_to(over.swing, place - X_WS.translation().head<2>());
   place_.handover.dug_at = place_.handover.q[0];
   place_.handover.is_out = true;
   with_surface(seen, [&](const SurfaceView& surface) {
-    const CarrySwing way{place_.handover.dug_at, swing, place, dig_.dump_height, X_WS};
-    raise_over_arc(way, arm_, surface, q);
+    m.edge = plan_.highest_beside(surface, m.s) + kOverEdge;
+    if (dig_.has_load) return;
+    CarrySwing way{place_.handover.dug_at, swing, place, X_WS};
+    pass_over(arm_, surface, way, q);
+    swing = way.to;
     // The swing begins before the arm is up.
-    m.edge = std::max(plan_.highest_beside(surface, m.s) + kOverEdge,
-                      std::min(highest_on_arc(way, kUpBefore, surface),
-                               lowest_point(arm_.forward(q), arm_, X_WS)));
+    m.edge = std::max(m.edge, std::min(highest_on_arc(way, kUpBefore, surface),
+                                       lowest_point(arm_.forward(q), arm_, X_WS)));
   });
   const double turn = std::min(swing_acceleration(place_, q, seen.payload, seen),
                                swing_acceleration(place_, place_.arm_angles(), seen.payload, seen));
