@@ -29,8 +29,14 @@ using control::place_text;
 constexpr double kAdvance = 3;
 // A hollow is looked at over a square of this half length [m], the spread of a bucket's load.
 constexpr double kSpread = 0.5;
-constexpr double kEvery = 0.25;       // between places to dump [m]
-constexpr double kHollow = 0.08;      // least volume of a hollow that is filled [m3]
+// No load is dumped nearer than this beyond the nearest soil that the arm digs [m]: what falls
+// there too high cannot be taken off, and the machine drives over it next.
+constexpr double kClear = 0.3;
+constexpr double kEvery = 0.25;   // between places to dump [m]
+constexpr double kHollow = 0.08;  // least volume of a hollow that is filled [m3]
+// The fill is first made so much too high [m]: what is too high is taken off at the end, and
+// nothing fills a hollow then.
+constexpr double kOverfill = 0.03;
 constexpr double kLeastScoop = 0.25;  // share of the heaped capacity
 // The first station stands so much farther back, and soil that lies too high so far around the hole
 // is taken off: the digging has left a mound at its near end, where the machine is to drive [m].
@@ -70,7 +76,7 @@ std::optional<Hollow> largest_hollow(const Fill& fill, const control::PitJob& jo
   std::vector<PitColumn> open;
   for (const PitColumn& one : fill.columns) {
     const double away = (one.p - centre).dot(ahead);
-    if (away >= kFaceBegins - kSpread && away <= kFaceBegins + kAdvance + kSpread)
+    if (away >= kFaceBegins + kClear && away <= kFaceBegins + kAdvance + kClear + kSpread)
       open.push_back(one);
   }
   std::vector<Hollow> found;
@@ -82,7 +88,7 @@ std::optional<Hollow> largest_hollow(const Fill& fill, const control::PitJob& jo
     Hollow one{at.p, 0, 0};
     for (const PitColumn& near : open)
       if (const double away = (near.p - at.p).cwiseAbs().maxCoeff(); away <= kSpread) {
-        const double lack = (near.floor - near.top) * fill.hole.column_area();
+        const double lack = (near.floor + kOverfill - near.top) * fill.hole.column_area();
         one.volume += lack;
         one.near += lack * (1 - 0.5 * (near.p - at.p).norm() / kSpread);
       }
