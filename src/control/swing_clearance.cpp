@@ -11,8 +11,6 @@ namespace navvy::control {
 namespace {
 
 constexpr int kSamples = 64;  // of a move: at most 0.5 m apart in a half turn at full reach
-// Least height of the opened bucket over the ground on its way [m].
-constexpr double kOver = 0.15;
 
 /// Returns the height in W [m] of the tip after the bucket has opened at the angles `q`.
 double opened_height(const ArmAngles& q, const ArmKinematics& arm, const Pose& X_WS) {
@@ -58,10 +56,11 @@ double highest_on_arc(const CarrySwing& swing, double share, const SurfaceView& 
 
 void pass_over(const ArmKinematics& arm, const SurfaceView& surface, CarrySwing& swing,
                ArmAngles& q) {
-  const double wanted = highest_on_arc(swing, 1, surface) + kOver;
+  const double wanted = highest_on_arc(swing, 1, surface) + kOverHeap;
   if (opened_height(q, arm, swing.X_WS) >= wanted) return;
   ArmAngles raised = q;
   double clearance = 0;
+  // As high as it must be and no higher.
   if (dump_pose(arm, swing.X_WS, swing.dump_at, wanted, 0, raised, clearance)) {
     q = raised;
     return;
@@ -69,7 +68,8 @@ void pass_over(const ArmKinematics& arm, const SurfaceView& surface, CarrySwing&
   if (arm.swing_limited()) return;
   CarrySwing other = swing;
   other.to += std::copysign(2 * kPi, swing.from - swing.to);
-  if (opened_height(q, arm, swing.X_WS) >= highest_on_arc(other, 1, surface) + kOver) swing = other;
+  if (opened_height(q, arm, swing.X_WS) >= highest_on_arc(other, 1, surface) + kOverHeap)
+    swing = other;
 }
 
 }  // namespace navvy::control

@@ -8,6 +8,9 @@
 
 namespace navvy::control {
 
+/// Least height of the bucket over ground that it passes on a swing [m].
+inline constexpr double kOverHeap = 0.15;
+
 /// Returns the least height [m] of the bucket's lowest point above the surface under its tip and
 /// beside it, by half the bucket's width, from the time `since` [s] of a move to its end. Negative
 /// if the bucket would go through the ground. X_WS is the pose of the swing axis frame S in W.

@@ -46,8 +46,10 @@ TEST(Replay, ShowsHeightsPosesAndForcesOfTheRun) {
   run::SimulationOptions options;
   options.folder = folder.path().string() + "/run";
   std::map<int, Moment> moments;  // by tenths of a second
+  double half_step = 0;           // frames are at the nearest base step [s]
   {
     run::Simulation simulation(run::test::bucket_scene(4), options);
+    half_step = 0.5 * simulation.world().dt() + 1e-9;
     run::LoopHooks hooks;
     hooks.progress = [&](const run::RunProgress& progress) {
       const int tenth = static_cast<int>(std::lround(10 * progress.time));
@@ -70,12 +72,11 @@ TEST(Replay, ShowsHeightsPosesAndForcesOfTheRun) {
   const auto forces = unpacked<float>(one.at("frames").at("forces"));
   ASSERT_EQ(poses.size(), times.size() * links * 7);
   ASSERT_EQ(forces.size(), times.size() * 6);
-  constexpr double kHalfStep = 1.1e-3;  // frames are at the nearest base step
   double moved = 0, largest = 0;
   for (const auto& [tenth, moment] : moments) {
     const auto frame = static_cast<std::size_t>(tenth / 2);
-    EXPECT_NEAR(times[frame].get<double>(), 0.1 * tenth, kHalfStep);
-    const std::vector<double> shown = heights_at(one, 0.1 * tenth + kHalfStep);
+    EXPECT_NEAR(times[frame].get<double>(), 0.1 * tenth, half_step);
+    const std::vector<double> shown = heights_at(one, 0.1 * tenth + half_step);
     ASSERT_EQ(shown.size(), moment.heights.size());
     const std::vector<double> start = heights_at(one, -1);
     for (std::size_t i = 0; i < shown.size(); ++i) {

@@ -80,13 +80,16 @@ std::size_t compare(const World& world, VisibleSoil& soil) {
   EXPECT_EQ(balls.size(), plain.balls.size());
   // Floats of a ball count from a point within some metres, so neighbours in the order of x may
   // have changed places.
+  const auto same = [](const auto& a, const auto& b) {
+    return std::abs(std::get<0>(a) - std::get<0>(b)) < 1e-6 &&
+           std::abs(std::get<3>(a) - std::get<3>(b)) < 1e-6;
+  };
   const std::size_t count = std::min(balls.size(), plain.balls.size());
   for (std::size_t i = 0; i < count; ++i) {
-    bool found = false;
-    for (std::size_t j = i == 0 ? 0 : i - 1; j < std::min(i + 2, count); ++j)
-      found |= std::abs(std::get<0>(balls[i]) - std::get<0>(plain.balls[j])) < 1e-6 &&
-               std::abs(std::get<3>(balls[i]) - std::get<3>(plain.balls[j])) < 1e-6;
-    EXPECT_TRUE(found) << i;
+    if (i + 1 < count && !same(balls[i], plain.balls[i]) && same(balls[i + 1], plain.balls[i]))
+      std::swap(balls[i], balls[i + 1]);
+    EXPECT_NEAR(std::get<0>(balls[i]), std::get<0>(plain.balls[i]), 1e-6);
+    EXPECT_NEAR(std::get<3>(balls[i]), std::get<3>(plain.balls[i]), 1e-6);
   }
   return balls.size();
 }

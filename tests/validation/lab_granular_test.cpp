@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The granular rigs at the sizes for which their tolerances are given, and at half the cell. A
 // deviation fails unless it is in tolerances/known_deviations.md.
+#include "validation/courant.h"
 #include "validation/rig_case.h"
 #include "values.h"
 
@@ -43,7 +44,7 @@ TEST(PouredLoam, FormsHeapsLikeSpoil) {
 
 // The soils of `swell` and `throw` are the rigs' defaults, loam of swell 1.23 and sand of none,
 // unless stated.
-const std::map<std::string, double> kHalfStep = {{"courant", 0.25}};
+const std::map<std::string, double> kHalfStep = {{"courant", kHalfCourant}};
 const SoilChange kDrySand = {.phi_degrees = 33, .cohesion = 0, .swell = 1.13, .bank_density = 1600};
 
 INSTANTIATE_TEST_SUITE_P(

@@ -5,6 +5,7 @@
 
 #include "lab/soils.h"
 #include "scene/soil_values.h"
+#include "validation/courant.h"
 #include "validation/rig_case.h"
 #include "values.h"
 
@@ -110,17 +111,17 @@ TEST(ToolLab, ReportsBothReadingsOfTheNarrowBladesFrictionAngle) {
 
 TEST(ToolLab, CutsAtSpeedsAndStepsWithANarrowBlade) {
   const char* source = "[docs/validation.md, Blades and earth pressure]";
-  const double usual = narrow_blade(0.15, 0.45, 0.5, 0.05);
+  const double usual = narrow_blade(0.15, 0.45, kUsualCourant, 0.05);
   expect_between("narrow blade, force at half the step / at the step",
-                 narrow_blade(0.15, 0.45, 0.25, 0.05) / usual, 0.97, 1.03, source);
+                 narrow_blade(0.15, 0.45, kHalfCourant, 0.05) / usual, 0.97, 1.03, source);
   expect_between("narrow blade, force at 0.15 m/s / at 0.45 m/s",
-                 narrow_blade(0.15, 0.15, 0.5, 0.05) / usual, 0.95, 1.05, source);
+                 narrow_blade(0.15, 0.15, kUsualCourant, 0.05) / usual, 0.95, 1.05, source);
   // Two cells of depth do not resolve the wedge; compare with four.
   print_value("narrow blade, 0.10 m deep, force in cells of 0.05 m [N]",
-              narrow_blade(0.10, 0.45, 0.5, 0.05), "no tolerance",
+              narrow_blade(0.10, 0.45, kUsualCourant, 0.05), "no tolerance",
               "280 N measured [Obermayr 2011]");
   print_value("narrow blade, 0.10 m deep, force in cells of 0.025 m [N]",
-              narrow_blade(0.10, 0.45, 0.5, 0.025), "no tolerance",
+              narrow_blade(0.10, 0.45, kUsualCourant, 0.025), "no tolerance",
               "280 N measured [Obermayr 2011]");
 }
 
@@ -221,7 +222,7 @@ const std::map<std::string, double> kActive = {{"travel", -0.03}, {"ahead", 1.5}
 const std::map<std::string, double> kHeavy = {{"mass", 1400}, {"shell-mass", 700}};
 const std::map<std::string, double> kHeavyHalfStep = {
     {"mass", 1400}, {"shell-mass", 700}, {"step-share", 0.5}};
-const std::map<std::string, double> kHalfStep = {{"courant", 0.25}};
+const std::map<std::string, double> kHalfStep = {{"courant", kHalfCourant}};
 const SoilChange kPhi30 = {.phi_degrees = 30}, kPhi40 = {.phi_degrees = 40};
 
 class ToolTolerances : public testing::TestWithParam<RigCase> {};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/courant.h"
 #include "validation/rig_case.h"
 #include "values.h"
 
@@ -35,10 +36,10 @@ TEST(ToolSpread, IsSmallForASmoothBladeOverSpeedsAndSteps) {
   std::vector<double> whole;
   double mean = 0, worst = 0;
   for (const double speed : {0.05, 0.15, 0.3}) {
-    const double force = blade(0.05, speed, 0.5);
+    const double force = blade(0.05, speed, kUsualCourant);
     whole.push_back(force);
     mean += force / 3;
-    worst = std::max(worst, std::abs(blade(0.05, speed, 0.25) / force - 1));
+    worst = std::max(worst, std::abs(blade(0.05, speed, kHalfCourant) / force - 1));
   }
   expect_between("smooth blade, cells of 0.05 m, 0.05 .. 0.3 m/s: spread / mean", spread(whole), 0,
                  0.05, kSource);
@@ -52,26 +53,27 @@ TEST(CellsPerDepth, SetTheShareOfASmoothBladesForce) {
   for (const double cells : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0})
     print_value(
         "smooth blade, 0.15 m/s, " + lab::short_text(cells) + " cells per depth: force / Rankine",
-        blade(0.3 / cells, 0.15, 0.5), "1, no tolerance",
+        blade(0.3 / cells, 0.15, kUsualCourant), "1, no tolerance",
         "[Rankine 1857] [docs/validation.md, Cells per depth of cut]");
 }
 
 // Four times slower than the slowest of the others: contact does not depend on time.
 TEST(ToolSpread, IsSmallForACreepingBlade) {
-  const double creeping = blade(0.05, 0.0125, 0.5);
+  const double creeping = blade(0.05, 0.0125, kUsualCourant);
   expect_between("smooth blade, cells of 0.05 m, force at 0.0125 m/s / at 0.05 m/s",
-                 creeping / blade(0.05, 0.05, 0.5), 0.95, 1.05, kSource);
+                 creeping / blade(0.05, 0.05, kUsualCourant), 0.95, 1.05, kSource);
   // Three cells deep: the limit of so few cells.
   print_value("smooth blade, cells of 0.1 m, force at 0.0125 m/s / at 0.05 m/s",
-              blade(0.1, 0.0125, 0.5) / blade(0.1, 0.05, 0.5), "no tolerance", kSource);
+              blade(0.1, 0.0125, kUsualCourant) / blade(0.1, 0.05, kUsualCourant), "no tolerance",
+              kSource);
 }
 
 TEST(ToolSpread, IsSmallForASmoothBladeInCoarseCells) {
   std::vector<double> whole;
   double worst = 0;
   for (const double speed : {0.05, 0.15, 0.3}) {
-    whole.push_back(blade(0.1, speed, 0.5));
-    worst = std::max(worst, std::abs(blade(0.1, speed, 0.25) / whole.back() - 1));
+    whole.push_back(blade(0.1, speed, kUsualCourant));
+    worst = std::max(worst, std::abs(blade(0.1, speed, kHalfCourant) / whole.back() - 1));
   }
   expect_between("smooth blade, cells of 0.1 m, 0.05 .. 0.3 m/s: spread / mean", spread(whole), 0,
                  0.13, kSource);
@@ -81,7 +83,7 @@ TEST(ToolSpread, IsSmallForASmoothBladeInCoarseCells) {
   // 1 m.
   const double inertia = 1600 * 0.6 * 0.6 * 0.3 / 2606.4;
   expect_between("smooth blade, cells of 0.1 m, 0.6 m/s: force less rho v^2 d w / Rankine",
-                 blade(0.1, 0.6, 0.5) - inertia, 0.95, 1.05, kSource);
+                 blade(0.1, 0.6, kUsualCourant) - inertia, 0.95, 1.05, kSource);
 }
 
 /// A force relative to its formula, and its bounds where tool friction leaves two.
@@ -193,9 +195,9 @@ TEST(ToolSpread, IsSmallForARakedBladeOverSteps) {
                                             });
     return lab::measured(report, "horizontal force");
   };
-  const double whole = force(0.5);
+  const double whole = force(kUsualCourant);
   expect_between("raked blade in sand, 60 deg: force at half the step / at the step",
-                 force(0.25) / whole, 0.97, 1.03, kStep);
+                 force(kHalfCourant) / whole, 0.97, 1.03, kStep);
 }
 
 TEST(ToolSpread, IsSmallForABucketsDragOverSteps) {
@@ -203,9 +205,9 @@ TEST(ToolSpread, IsSmallForABucketsDragOverSteps) {
     const lab::Report report = lab::run_rig("bucket", {{"courant", courant}});
     return lab::measured(report, "mean horizontal force of the drag");
   };
-  const double force = drag(0.5);
-  expect_between("bucket's drag in sand: force at half the step / at the step", drag(0.25) / force,
-                 0.97, 1.03, kStep);
+  const double force = drag(kUsualCourant);
+  expect_between("bucket's drag in sand: force at half the step / at the step",
+                 drag(kHalfCourant) / force, 0.97, 1.03, kStep);
 }
 
 }  // namespace

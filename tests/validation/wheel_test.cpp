@@ -3,6 +3,7 @@
 // once they are fitted to part of the data; the particles are not fitted, so here the load, leaks
 // and the order of the pulls have tolerances and the rest is printed.
 #include "lab/run_rig.h"
+#include "validation/courant.h"
 #include "validation/report.h"
 #include "values.h"
 
@@ -51,12 +52,12 @@ TEST(WheelLab, ReportsASmoothWheelOverSpeedsAndSteps) {
                 "[docs/validation.md, Wheels]");
     return measured(report, "sinkage");
   };
-  const double usual = wheel(0.2, 0.5);
+  const double usual = wheel(0.2, validation::kUsualCourant);
   validation::expect_between("wheel at slip 0.5: sinkage at half the step / at the step",
-                             wheel(0.2, 0.25) / usual, 0.97, 1.03,
+                             wheel(0.2, validation::kHalfCourant) / usual, 0.97, 1.03,
                              "the step [docs/validation.md, speed and step]");
   validation::expect_between("wheel at slip 0.5: sinkage at 0.07 m/s / at 0.2 m/s",
-                             wheel(0.07, 0.5) / usual, 0.95, 1.05,
+                             wheel(0.07, validation::kUsualCourant) / usual, 0.95, 1.05,
                              "[docs/validation.md, speed and step]");
 }
 

@@ -68,9 +68,8 @@ constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFlo
 constexpr double kAside = 0.25;
 constexpr int kAsides = 16;
 // During the return swing the arm comes down after this share of the swing, or by steps of a share
-// later, until the bucket clears what is below by this much [m].
+// later, until the bucket clears what is below.
 constexpr double kArmAfterSwing = 0.4, kArmLater = 0.1;
-constexpr double kOverHeap = 0.15;
 
 }  // namespace
 
