@@ -60,6 +60,7 @@ class Fan {
         worth_above_(limits.worth_above),
         worth_last_(limits.worth_last),
         outside_(limits.outside),
+        far_out_(limits.far_out),
         least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)),
         fills_(job.heap.has_value()),
         square_(limits.square) {
@@ -215,7 +216,12 @@ class Fan {
       std::fill(floors.begin() + begin, floors.begin() + first,
                 floors[static_cast<std::size_t>(first)]);
       last = std::max(last, std::min(inside, begin + static_cast<int>(kCurlSpace / kSample)));
-      if (last == inside) last = far_out(floors, last);
+      if (last == inside) {
+        const double z = floors[far()];
+        const int more = samples_beyond(last, z, kFarOut);
+        std::fill_n(floors.begin() + last + 1, more, z);
+        last += more;
+      }
     }
     out.near = centre_ + (kFaceBegins + begin * kSample) * along;
     out.far = centre_ + (kFaceBegins + last * kSample) * along;
@@ -226,14 +232,13 @@ class Fan {
     return found;
   }
 
-  /// Returns the last sample of a strip that goes on beyond its last one inside the pit, `last`, at
-  /// the same floor, as far as the arm reaches.
-  int far_out(std::vector<double>& floors, int last) const {
-    const double z = floors[static_cast<std::size_t>(last)];
-    int out = last;
-    while (out < last + static_cast<int>(kFarOut / kSample) &&
-           kFaceBegins + (out + 1) * kSample <= reach_.at(z - ring_).most)
-      floors[static_cast<std::size_t>(++out)] = z;
+  /// Returns by how many samples a strip may go on beyond its last one inside the pit, `last`, at
+  /// the height `z` [m]: `length` [m], as far as the arm reaches.
+  int samples_beyond(int last, double z, double length) const {
+    const auto most = static_cast<int>(std::lround(length / kSample));
+    int out = 0;
+    while (out < most && kFaceBegins + (last + out + 1) * kSample <= reach_.at(z - ring_).most)
+      ++out;
     return out;
   }
 
@@ -289,9 +294,13 @@ class Fan {
     const int length = last - first;
     if (first < 0 || length * kSample < kLeastLength || worst_mean(squares) <= tolerance_)
       return std::nullopt;
+    const int farther = samples_beyond(last, floors.back(), far_out_);
+    floors.insert(floors.end(), static_cast<std::size_t>(farther), floors.back());
+    last += farther;
+    const bool out_at_depth = square_ || far_out_ > 0;
     const int more =
-        square_ ? std::min(first, static_cast<int>(kBreakOut / kSample)) : beyond(first);
-    if (square_)
+        out_at_depth ? std::min(first, static_cast<int>(kBreakOut / kSample)) : beyond(first);
+    if (out_at_depth)
       floors.insert(floors.begin(), static_cast<std::size_t>(more), floors.front());
     else
       floors.insert(floors.begin(), before.end() - more, before.end());
@@ -308,7 +317,7 @@ class Fan {
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
   const double width_, capacity_, slope_, tolerance_, sector_, aside_, nearest_, worth_above_,
-      worth_last_, outside_, least_soil_;
+      worth_last_, outside_, far_out_, least_soil_;
   const bool fills_, square_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;
