@@ -3,6 +3,7 @@
 // module implements it, and the application passes it in.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -33,6 +34,8 @@ struct PitJob {
   scene::DesignArea area;
   /// Ends (x, y) in W of the windrow in which the spoil is dumped [m]; both the same: a heap.
   Vec2 dump_from = Vec2::Zero(), dump_to = Vec2::Zero();
+  /// Ends of a second windrow, such as one on the other side [m]; nothing: there is none.
+  std::optional<std::array<Vec2, 2>> second_windrow;
   /// Height of the bucket's tip above the ground when it opens [m].
   double dump_height = 1.5;
   /// Largest depth of a layer [m].
@@ -44,6 +47,8 @@ struct PitJob {
   std::optional<JobHeap> heap;
   /// True if the soil goes into beds that stand at `dump_from`. With a heap the area is unused.
   bool into_beds = false;
+  /// Height above the area up to which a hole is filled, for what a compaction will settle [m].
+  double over = 0;
 };
 
 /// One cut of a job: a strip one bucket wide, radial to the swing axis, in one layer.

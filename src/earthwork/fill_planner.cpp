@@ -44,11 +44,20 @@ constexpr double kApron = 1, kBorder = 1.4;
 constexpr double kLeastFault = 0.05;            // volume that is missing [m3]
 constexpr std::int64_t kLevelKeys = 1'000'000;  // keys of levelling are so far from those of scoops
 
+/// Returns the shape of the ground after filling, before anything compacts it.
+scene::DesignArea loose_shape(const control::PitJob& job) {
+  scene::DesignArea out = job.area;
+  out.depth -= job.over;
+  return out;
+}
+
 /// Hole and heap of a job on the present ground.
 class Fill {
  public:
   Fill(const control::PitJob& job, const control::SurfaceView& surface)
-      : hole(job.area, surface), heap(heap_shape(*job.heap, surface)), columns(hole.columns()) {
+      : hole(loose_shape(job), surface),
+        heap(heap_shape(*job.heap, surface)),
+        columns(hole.columns()) {
     ahead = scene::longest_edge(job.area.polygon).normalized();
     for (const PitColumn& one : columns) middle += one.p / static_cast<double>(columns.size());
   }
@@ -163,6 +172,10 @@ control::JobPlan plan_fill(const control::PitJob& job, const ArmReach& reach, co
   const double ring = fill.hole.ground() + rise + reach.arm().X_BS().translation().z();
   check_heap(fill, job, reach, ring, out, axle_ahead, out.faults);
   check_on_site(out.stations, surface, out.faults);
+  // Then back over the same places: a strip leaves a ridge at its near end, of which only the
+  // place behind it gets hold.
+  for (std::size_t i = out.stations.size(); i-- > 1;)
+    out.stations.push_back({out.stations[i - 1].at, 0, 0});
   return out;
 }
 
@@ -208,7 +221,7 @@ std::vector<control::JobCut> fill_cuts(const control::PitJob& job, const ArmReac
 }
 
 control::JobVolume fill_volume(const control::PitJob& job, const control::SurfaceView& surface) {
-  const PitShape hole(job.area, surface);
+  const PitShape hole(loose_shape(job), surface);
   control::JobVolume out;
   double squares = 0;
   const std::vector<PitColumn> columns = hole.columns();

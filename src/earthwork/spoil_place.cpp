@@ -21,12 +21,15 @@ bool can_dump(const control::PitJob& job, const control::ArmKinematics& arm, con
 }
 
 std::vector<Vec2> spoil_points(const control::PitJob& job) {
-  const Vec2 along = job.dump_to - job.dump_from;
-  const int pieces = static_cast<int>(std::ceil(along.norm() / kSpacing - 1e-9));
   std::vector<Vec2> out;
-  for (int i = 0; i <= pieces; ++i)
-    out.push_back(pieces == 0 ? job.dump_from
-                              : Vec2(job.dump_from + along * static_cast<double>(i) / pieces));
+  const auto add = [&](const Vec2& from, const Vec2& to) {
+    const Vec2 along = to - from;
+    const int pieces = static_cast<int>(std::ceil(along.norm() / kSpacing - 1e-9));
+    for (int i = 0; i <= pieces; ++i)
+      out.push_back(pieces == 0 ? from : Vec2(from + along * static_cast<double>(i) / pieces));
+  };
+  add(job.dump_from, job.dump_to);
+  if (job.second_windrow) add((*job.second_windrow)[0], (*job.second_windrow)[1]);
   return out;
 }
 

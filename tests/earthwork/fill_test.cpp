@@ -54,11 +54,13 @@ JobPlan plan_of(const Backfill& step, const heightfield::Ground& ground,
   return planner->plan(step.job(), X_WB, control::GroundSurfaceView(ground));
 }
 
-TEST(FillPlan, WorksForwardsFromTheEndThatIsNearer) {
+TEST(FillPlan, WorksForwardsFromTheEndThatIsNearerAndBackOverTheSamePlaces) {
   const heightfield::Ground ground = control::testing::flat_ground();
   const JobPlan plan = plan_of(fill(6), ground);
   EXPECT_EQ(text_of(plan), "");
-  ASSERT_EQ(plan.stations.size(), 3u);
+  ASSERT_EQ(plan.stations.size(), 5u);
+  EXPECT_EQ(plan.stations[3].at.p, plan.stations[1].at.p);
+  EXPECT_EQ(plan.stations[4].at.p, plan.stations[0].at.p);
   EXPECT_LT(plan.stations[0].at.p.x(), -7);
   EXPECT_NEAR(plan.stations[1].at.p.x() - plan.stations[0].at.p.x(), 3, 1e-6);
   EXPECT_NEAR(std::remainder(plan.stations[0].at.yaw, 2 * kPi), 0, 1e-9);
@@ -67,6 +69,17 @@ TEST(FillPlan, WorksForwardsFromTheEndThatIsNearer) {
   ASSERT_FALSE(back.stations.empty());
   EXPECT_GT(back.stations[0].at.p.x(), 5);
   EXPECT_NEAR(std::abs(std::remainder(back.stations[0].at.yaw, 2 * kPi)), kPi, 1e-9);
+}
+
+TEST(FillPlan, FillsHigherWhereACompactionWillSettleTheGround) {
+  const heightfield::Ground ground = control::testing::flat_ground();
+  Backfill step = fill(6);
+  EXPECT_NEAR(plan_of(step, ground).volume, 0, 1e-9);
+  step.over = 0.05;
+  // Columns of 0.1 m whose middle is inside.
+  EXPECT_NEAR(plan_of(step, ground).volume, 0.05 * 6 * kWidth, 0.05 * 6 * 0.06);
+  const auto planner = job_planners()(control::testing::ew180_like());
+  EXPECT_NEAR(planner->volume(step.job(), control::GroundSurfaceView(ground)).rms, 0.05, 1e-6);
 }
 
 TEST(FillPlan, NamesAHeapInTheFillOneOutOfReachAndOneThatIsTooSmall) {

@@ -188,6 +188,61 @@ TEST(PitPlan, CutsOfATrenchRunOutBeyondItsNearEndAtTheDepthOfTheFloor) {
   EXPECT_GE(cuts.size(), 2u);
 }
 
+TEST(PitPlan, LevelsAWideFloorUpToItsSteepSides) {
+  const heightfield::Ground ground = control::testing::flat_ground();
+  const auto planner = job_planners()(control::testing::ew180_like());
+  Grade step;
+  step.polygon = pit(8, 4, 0.2, 90).polygon;
+  step.depth = 0.2;
+  step.batter = radians(90);
+  step.dump_at = step.dump_to = Vec2(-6, 7);
+  const JobPlan plan =
+      planner->plan(step.job(), make_pose(-10.5, 0, 0), control::GroundSurfaceView(ground));
+  ASSERT_GE(plan.stations.size(), 2u);
+  double near = 0, far = 0, side = 0;
+  for (const control::JobStation& one : plan.stations)
+    for (const control::JobCut& cut :
+         planner->cuts(step.job(), make_pose(one.at.p.x(), one.at.p.y(), 0, 0, 0, one.at.yaw),
+                       control::GroundSurfaceView(ground))) {
+      side = std::max(side, std::abs(cut.far.y()));
+      if (!cut.levels) continue;
+      EXPECT_NEAR(cut.floor.front(), -0.2, 1e-6);
+      EXPECT_NEAR(cut.floor.back(), -0.2, 1e-6);
+      near = std::min(near, cut.near.x());
+      far = std::max(far, cut.far.x());
+    }
+  // Out of the near side for the ramp of the curl, and into the far one.
+  EXPECT_LT(near, -4 - 0.3);
+  EXPECT_GT(far, 4 + 0.1);
+  // The bucket, half of it 0.52 m, reaches over the sides by 0.4 m at most.
+  EXPECT_GT(side, 2 - 0.52 + 0.1);
+}
+
+TEST(PitPlan, DumpsOnTheLowerOfTwoWindrows) {
+  heightfield::Ground ground = control::testing::flat_ground();
+  const auto planner = job_planners()(control::testing::ew180_like());
+  DigArea step = pit(4, 3, 1.5);
+  step.second_windrow = {-10, -6.4, -1, -6.4};
+  const Pose X_WB = make_pose(-5, 0, 0);
+  const auto dumped = [&] {
+    const std::vector<control::JobCut> cuts =
+        planner->cuts(step.job(), X_WB, control::GroundSurfaceView(ground));
+    return cuts.empty() ? 0 : cuts.front().dump_at.y();
+  };
+  EXPECT_NEAR(dumped(), 6.4, 1e-9);
+  heightfield::SoilLayer layer;
+  layer.mass = mass_units(0.5 * 0.1 * 0.1 * 1700);
+  for (double x = -11; x < 0; x += 0.1)
+    for (double y = 5.5; y < 7.5; y += 0.1) {
+      const Vec2i at = ground.column_at(x + 0.05, y + 0.05);
+      ground.put(at.x(), at.y(), layer);
+    }
+  EXPECT_NEAR(dumped(), -6.4, 1e-9);
+  step.second_windrow = {-10, -2.9, -1, -2.9};
+  EXPECT_NE(text_of(plan_of(step)).find("must fall 0.50 m clear"), std::string::npos)
+      << text_of(plan_of(step));
+}
+
 TEST(PitPlan, DigsLongSteepPitsRowByRow) {
   // Longer than the reach in both directions: no station stands on dug ground.
   DigArea step = steep(9, 8, 0.4);

@@ -10,10 +10,11 @@ namespace navvy::control {
 /// Fills the ground inside a polygon up to a plane with soil from a heap or windrow beside it. The
 /// machine works forwards along the longest edge: from each station it fills the next 3 m ahead of
 /// it, the largest hollow first, each scoop no larger than that hollow, takes off what lies too
-/// high, and drives on over its fill.
+/// high, and drives on over its fill. Then it backs over the same places, and at each one takes off
+/// the ridge that the strips of the place ahead have left at their near ends.
 ///
 /// The step is done if at most 15 % of what the hole lacked is missing and the ground deviates from
-/// the plane by at most twice the tolerance.
+/// the plane, raised by `over`, by at most twice the tolerance.
 struct Backfill final : DigArea {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "backfill";
@@ -40,6 +41,9 @@ struct Backfill final : DigArea {
       "Depth of the filled ground below the ground at the start, at the first corner.");
     f("fall_deg", fall, {0, 30}, "Angle by which the filled ground falls.");
     f("fall_yaw_deg", fall_yaw, {-360, 360}, "Direction of the fall, from W's x.");
+    f("over_m", over, {0, 0.5},
+      "Height above that ground up to which it is filled: what a compact that follows will "
+      "settle.");
     source.describe(f);
     f("tolerance_m", tolerance, {0.005, 1},
       "Height (rms) over the plane above which a strip is taken off.");

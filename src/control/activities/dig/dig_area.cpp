@@ -15,6 +15,15 @@
 #include "scene/polygon.h"
 
 namespace navvy::control {
+namespace {
+
+/// Returns the two points of 4 numbers; nothing for another number of them.
+std::vector<Vec2> ends_of(const std::vector<double>& numbers) {
+  if (numbers.size() != 4) return {};
+  return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+}  // namespace
 
 void DigArea::check(const scene::StepSource& source) {
   const scene::Machine* machine = source.machine;
@@ -39,6 +48,11 @@ void DigArea::check(const scene::StepSource& source) {
       source.error("polygon_m", fault->value, fault->rule, fault->remedy);
   source.on_site("dump_at_m", dump_at);
   if (has_dump_to) source.on_site("dump_to_m", dump_to);
+  const std::size_t numbers = second_windrow.size();
+  if (numbers != 0 && numbers != 4)
+    source.error("second_windrow_m", source.written("second_windrow_m"), "must be 4 numbers",
+                 "write x y of one end, then x y of the other");
+  for (const Vec2& p : ends_of(second_windrow)) source.on_site("second_windrow_m", p);
   double deepest = depth;
   for (const Vec2& p : polygon)
     deepest = std::max(
@@ -66,18 +80,22 @@ std::vector<Vec2> DigArea::places() const {
   std::vector<Vec2> out = polygon;
   out.push_back(dump_at);
   if (has_dump_to) out.push_back(dump_to);
+  for (const Vec2& p : ends_of(second_windrow)) out.push_back(p);
   return out;
 }
 
 PitJob DigArea::job() const {
+  const std::vector<Vec2> second = ends_of(second_windrow);
   return {area().value_or(scene::DesignArea{}),
           dump_at,
           has_dump_to ? dump_to : dump_at,
+          second.empty() ? std::nullopt : std::optional(std::array{second[0], second[1]}),
           dump_height,
           pass_depth,
           tolerance,
           heap,
-          !into.empty()};
+          !into.empty(),
+          over};
 }
 
 std::unique_ptr<Activity> DigArea::activity(OperatorContext& place) const {

@@ -39,12 +39,17 @@ struct DigArea : ActivityStep {
   /// Deviation from the design above which a strip of the floor is levelled [m]; 0, as for all but
   /// a grade: it is not levelled.
   double tolerance = 0;
+  /// Height above the area up to which it is filled [m]. Only a backfill has it.
+  double over = 0;
   /// Angle of the sides from the horizontal [rad]; pi/2: vertical.
   double batter = radians(45);
   /// Ends (x, y) in W of the windrow in which the soil is dumped [m].
   Vec2 dump_at = Vec2::Zero(), dump_to = Vec2::Zero();
   /// True if the scene file gives `dump_to`; without it the soil is dumped in a heap at `dump_at`.
   bool has_dump_to = false;
+  /// Coordinates x y x y of the ends of a second windrow in W [m], as the file lists them; empty:
+  /// there is none.
+  std::vector<double> second_windrow;
   /// Height of the bucket's tip above the ground when the bucket opens [m].
   double dump_height = 1.5;
   /// Largest depth of a layer [m].
@@ -131,6 +136,8 @@ struct DigArea : ActivityStep {
     f("dump_to_m", dump_to, {-1e6, 1e6},
       "Other end of a windrow that begins at dump_at_m; without it the spoil is a heap.",
       scene::given(has_dump_to));
+    f("second_windrow_m", second_windrow, {-1e6, 1e6},
+      "Ends x y x y of a second windrow, such as one on the other side.");
     f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
     f("pass_depth_m", pass_depth, {0.1, 5}, "Largest depth of a layer.");
     describe_fill(f);
