@@ -313,8 +313,8 @@ void Operator::visit(Archive& a) {
   State& s = *state_;
   // Version 5: reports of the steps, commands; 6: the machine's stability; 7: events after the last
   // step; 8: a scoop begins before its soil; 9: the place where a step began; 10: stations of a job
-  // that were not reached.
-  a.section("operator", 10, [&] {
+  // that were not reached; 11: surplus of a last pass into a bed.
+  a.section("operator", 11, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
               "the program has no such step; use the scene it was made with");

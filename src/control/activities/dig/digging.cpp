@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -53,13 +52,7 @@ constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // Share of the design volume: with more left, a trench is not done
 // [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
-// Share of a bucket by which a pass of a stated load may be planned larger.
-constexpr double kMorePass = 0.25;
-// Bounds of the mass of a scoop / the mass that it aims at: a scoop that met rock teaches nothing.
-constexpr double kLeastGain = 0.8, kMostGain = 1.25;
 constexpr double kThinSlice = 0.25;  // of a slice, for the rest of a load
-constexpr double kMostShift = 0.4;   // by which a dump is laid elsewhere to centre a load [m]
-constexpr double kResidue = 0.4;     // of a bucket: less soil in a bed is no pass
 // A pass along the floor that brings less than this share of a load is the last one: one of the
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
@@ -96,11 +89,6 @@ void Digging::begin(const Observation& seen) {
   go_on(kReturn, seen);
 }
 
-void Digging::aim_at(double lack) {
-  // The rest is divided into equal passes, so that no small one is left.
-  if (dig_.has_load) m.wanted = lack / std::max(1.0, std::ceil(lack / m.full_mass - kMorePass));
-}
-
 bool Digging::plan_scoop(const Observation& seen) {
   const double lack = lacking(seen);
   if (dig_.has_load && is_loaded(dig_.load - lack, dig_.load)) return false;
@@ -132,11 +120,6 @@ bool Digging::plan_scoop(const Observation& seen) {
 
 // After each scoop of a job the machine looks for the best cut and place of the spoil again.
 bool Digging::cut_is_over() const { return dig_.is_cut() && cycles() > 0; }
-
-double Digging::lacking(const Observation& seen) const {
-  if (!dig_.has_load) return std::numeric_limits<double>::infinity();
-  return dig_.load - (seen.load_of ? seen.load_of(dig_.into) : 0.0);
-}
 
 bool Digging::may_clean(const Observation& seen) const {
   const double least = m.clean_ups <= kFewCleanUps ? kLeastCleanUp : kLeastLateCleanUp;
@@ -189,34 +172,6 @@ void Digging::go_to_scoop(Phase next, const Observation& seen) {
       m.move.start(place_, to, seen, {1.0, std::min(1.0, wait + kArmLater), turn, false});
   });
   enter(next);
-}
-
-void Digging::learn_gain(double payload) {
-  if (!dig_.has_load || m.wanted <= 0) return;
-  // Half of the difference: scoops differ by more than places do.
-  const double possible = std::min(m.wanted, m.full_mass);
-  m.gain = std::clamp(m.gain * std::sqrt(payload / possible), kLeastGain, kMostGain);
-  if (dig_.gain != nullptr) *dig_.gain = m.gain;
-}
-
-Vec2 Digging::dump_place(const Observation& seen) const {
-  if (!dig_.has_load || dig_.spread.isZero()) return dig_.dump_at;
-  // Equal passes are laid side by side along the bed: each at the middle of its share.
-  const double share = (dig_.load - lacking(seen) + 0.5 * m.wanted) / dig_.load;
-  return dig_.dump_at + std::clamp(2 * share - 1, -1.0, 1.0) * dig_.spread + off_centre(seen);
-}
-
-Vec2 Digging::off_centre(const Observation& seen) const {
-  const double lack = lacking(seen), given = dig_.load - lack;
-  // What a truck has not tipped says nothing of where passes land.
-  if (given < kResidue * m.full_mass || !seen.load_centre_of) return Vec2::Zero();
-  const std::optional<Vec2> centre = seen.load_centre_of(dig_.into);
-  if (!centre) return Vec2::Zero();
-  // Passes up to now, if each had landed in its place, lie about the middle of their share. Later
-  // ones are assumed to miss theirs by as much, so they balance that, too.
-  const Vec2 meant = dig_.dump_at + (given / dig_.load - 1) * dig_.spread;
-  const Vec2 shift = (meant - *centre) * (dig_.load / std::max(lack, 0.1 * dig_.load));
-  return shift * std::min(1.0, kMostShift / std::max(shift.norm(), kMostShift));
 }
 
 ArmAngles Digging::opening_pose(const Observation& seen, const Pose& X_WS, Vec2& place) const {
@@ -281,6 +236,7 @@ void Digging::start_carry(const Observation& seen) {
   m.move.start(place_, with_arm(swing, q), seen, {1.2, 0, turn, true});
   m.held = seen.payload;
   m.held_since = 0;
+  trim_.start();
   enter(kLift);
 }
 
@@ -518,7 +474,8 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
       start_carry(seen);
       break;
     case kLift:
-      if (!lift(seen)) break;
+      // Falling surplus is no drip to wait for.
+      if (!(lift(seen) || trim_.opening() > 0) || trims(seen, dt)) break;
       m.lifted = phase_time();
       m.move.release_swing(m.lifted);
       tell(CycleEvent::kLiftOut);
@@ -527,7 +484,6 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
     case kSwing:
       if (!swing(seen)) break;
       if (m.cleaning != 0) m.cleaned = seen.payload;
-      learn_gain(seen.payload);
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       if (met_undiggable(seen))
         with_surface(seen,
@@ -588,6 +544,7 @@ void Digging::visit(Archive& a) {
   if (dig_.has_load) {
     a("wanted", m.wanted);
     a.ranged("gain", m.gain, kLeastGain, kMostGain);
+    a("trim", trim_);
   }
   landing_.visit(a);
 }

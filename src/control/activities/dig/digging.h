@@ -5,6 +5,7 @@
 #include "control/activities/dig/dig.h"
 #include "control/activities/dig/dig_plan.h"
 #include "control/activities/dig/landing.h"
+#include "control/activities/dig/trim.h"
 #include "control/activity.h"
 #include "control/arm_move.h"
 #include "control/stance.h"
@@ -96,6 +97,10 @@ class Digging final : public ActivityWith<DiggingMemory> {
   void visit(Archive& a) override;
 
  private:
+  // Bounds of the mass of a scoop / the mass that it aims at: a scoop that met rock teaches
+  // nothing.
+  static constexpr double kLeastGain = 0.8, kMostGain = 1.25;
+
   // Phases in the order of a cycle; kLook is the final look at the trench.
   enum Phase : std::int64_t {
     kReturn,
@@ -139,6 +144,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Continues the carry move until the machine may swing. Returns true then: the bucket is clear
   /// of the trench's edges, will be up before it gets to the heap, and loses no more soil.
   bool lift(const Observation& seen);
+  /// Lets what a bed does not need fall back, once the bucket is up. Returns true while it does.
+  bool trims(const Observation& seen, double dt);
   /// Returns true while soil still falls from the lifted bucket into the trench.
   bool drips(const Observation& seen);
   /// Returns the measured pose of the bucket.
@@ -230,8 +237,9 @@ class Digging final : public ActivityWith<DiggingMemory> {
   const ArmKinematics& arm_;
   // Plan of the trench, made in `begin`.
   DigPlan plan_;
-  // Soil that lands in the receiver.
+  // Soil that lands in the receiver, and that which falls back because it holds enough.
   Landing landing_;
+  Trim trim_;
 };
 
 }  // namespace navvy::control
