@@ -126,6 +126,9 @@ class JobPlanner {
   /// strips that are to be levelled, if the job has a tolerance.
   virtual std::vector<JobCut> cuts(const PitJob& job, const Pose& X_WB,
                                    const SurfaceView& surface) const = 0;
+  /// Returns true if the bucket can open over the spoil of a job somewhere, from the place where
+  /// the machine stands. A windrow may have grown too high.
+  virtual bool can_dump(const PitJob& job, const Pose& X_WB, const SurfaceView& surface) const = 0;
   /// Returns the volumes of a job on the present `surface`.
   virtual JobVolume volume(const PitJob& job, const SurfaceView& surface) const = 0;
 };

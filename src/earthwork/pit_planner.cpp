@@ -65,6 +65,12 @@ class PitPlanner final : public control::JobPlanner {
     return out;
   }
 
+  bool can_dump(const control::PitJob& job, const Pose& X_WB,
+                const control::SurfaceView& surface) const override {
+    if (job.heap || job.into_beds) return true;
+    return spoil_place(job, arm_, X_WB * arm_.X_BS(), surface).has_value();
+  }
+
   control::JobVolume volume(const control::PitJob& job,
                             const control::SurfaceView& surface) const override {
     if (!job.heap) return PitShape(job.area, surface).volume();

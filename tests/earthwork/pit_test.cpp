@@ -430,6 +430,27 @@ TEST(DigArea, LeavesOutStationsThatItCannotReachAndSaysWhy) {
   EXPECT_EQ(missed->value, 2);
 }
 
+TEST(DigArea, EndsWhereTheSpoilIsTooHighToDumpOn) {
+  const LogLines log;
+  const DigArea step = pit(2, 2, 0.6);
+  control::testing::DigRig rig = rig_of(step, make_pose(-9, 0, 0));
+  heightfield::SoilLayer layer;
+  layer.mass = mass_units(8 * 0.1 * 0.1 * 1700);
+  for (double x = -11; x < 0; x += 0.1)
+    for (double y = 5.4; y < 7.4; y += 0.1) {
+      const Vec2i at = rig.ground.column_at(x + 0.05, y + 0.05);
+      rig.ground.put(at.x(), at.y(), layer);
+    }
+  EXPECT_FALSE(rig.run(120));
+  ASSERT_FALSE(rig.op.reports().empty());
+  const control::StepReport& report = rig.op.reports().back();
+  EXPECT_EQ(report.state, control::StepState::kBlocked);
+  EXPECT_NE(report.reason.find("the spoil is so high that the bucket can open over it nowhere"),
+            std::string::npos)
+      << report.reason;
+  EXPECT_TRUE(rig.cycles.empty());
+}
+
 TEST(DigArea, LeavesPathsOfLaterStepsUntilItIsDone) {
   control::GoTo near, away;
   near.target = Vec2(-8, 0);

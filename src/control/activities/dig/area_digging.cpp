@@ -158,9 +158,17 @@ Dig AreaDigging::cut_step() {
 }
 
 bool AreaDigging::select_cut(const Observation& seen) {
+  bool dumps = true;
   const std::vector<JobCut> cuts = with_surface(seen, [&](const SurfaceView& surface) {
+    dumps = place_.jobs->can_dump(job_, seen.X_WB, surface);
     return place_.jobs->cuts(job_, seen.X_WB, surface);
   });
+  if (!dumps && !cuts.empty()) {
+    m.trouble = "at station " + std::to_string(m.station + 1) +
+                " the spoil is so high that the bucket can open over it nowhere within reach";
+    place_.warn(m.trouble);
+    return false;
+  }
   for (const JobCut& cut : cuts) {
     const int most = cut.levels ? kMostPasses : cut.fill > 0 ? kMostScoops : kMostRepeats;
     if (std::count(m.begun.begin(), m.begun.end(), cut.key) >= most) continue;
