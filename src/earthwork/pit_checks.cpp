@@ -120,7 +120,7 @@ void check_stations(const control::PitJob& job, const Stations& found, const Sta
       break;
     }
     const Pose X_WS = station_pose(one.at, machine.rise, surface) * machine.arm.X_BS();
-    if (spoil_place(job, machine.arm, X_WS, surface)) continue;
+    if (!reachable_spoil(job, machine.arm, X_WS, surface).empty()) continue;
     const double away = (job.dump_from - X_WS.translation().head<2>()).norm();
     faults.push_back({"dump_at_m", place_text(job.dump_from),
                       "from " + name + " at " + place_text(one.at.p) +

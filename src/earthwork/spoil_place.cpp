@@ -10,6 +10,9 @@ namespace navvy::earthwork {
 namespace {
 
 constexpr double kSpacing = 0.5;  // of points along a windrow [m]
+// Where it has grown too high, its sides are built out by up to this, towards the machine and away
+// from it [m].
+constexpr double kMostOff = 1.5;
 
 }  // namespace
 
@@ -43,15 +46,22 @@ std::vector<Vec2> reachable_spoil(const control::PitJob& job, const control::Arm
 
 std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,
                                 const Pose& X_WS, const control::SurfaceView& surface) {
-  std::optional<Vec2> best;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vec2& p : spoil_points(job)) {
-    const double height = control::heap_height(surface, p);
-    if (height >= lowest || !can_dump(job, arm, X_WS, p, height)) continue;
-    lowest = height;
-    best = p;
+  const Vec2 centre = X_WS.translation().head<2>();
+  const std::vector<Vec2> line = spoil_points(job);
+  for (double off = 0; off <= kMostOff; off += kSpacing) {
+    std::optional<Vec2> best;
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Vec2& on_line : line)
+      for (const double side : {-off, off}) {
+        const Vec2 p = on_line + side * (on_line - centre).normalized();
+        const double height = control::heap_height(surface, p);
+        if (height >= lowest || !can_dump(job, arm, X_WS, p, height)) continue;
+        lowest = height;
+        best = p;
+      }
+    if (best) return best;
   }
-  return best;
+  return std::nullopt;
 }
 
 }  // namespace navvy::earthwork

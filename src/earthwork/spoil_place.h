@@ -23,8 +23,9 @@ std::vector<Vec2> spoil_points(const control::PitJob& job);
 std::vector<Vec2> reachable_spoil(const control::PitJob& job, const control::ArmKinematics& arm,
                                   const Pose& X_WS, const control::SurfaceView& surface);
 
-/// Returns the point of the windrow at which the spoil is lowest among those that the arm reaches
-/// with the swing axis at X_WS; nothing if it reaches none.
+/// Returns the point of the windrow at which the spoil is lowest among those over which the bucket
+/// can open with the swing axis at X_WS; if there is none, one beside the windrow, as near to it as
+/// possible; nothing without one.
 std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,
                                 const Pose& X_WS, const control::SurfaceView& surface);
 
