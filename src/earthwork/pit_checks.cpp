@@ -16,7 +16,6 @@ using control::metres;
 using control::number_text;
 using control::place_text;
 
-constexpr double kSpoilClear = 0.5;   // of the dump point from the edge of the pit [m]
 constexpr double kAroundStation = 2;  // from the site's border to a station [m]
 // Half the length and width of a machine, and of the foot of a windrow [m].
 constexpr double kHalfLength = 2.4, kHalfWidth = 1.3, kHalfWindrow = 1.8;

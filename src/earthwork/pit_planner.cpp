@@ -59,7 +59,7 @@ class PitPlanner final : public control::JobPlanner {
     std::vector<control::JobCut> out =
         cut_fan(job, pit, reach_, X_WB, surface, lane_limits(job, pit, arm_.bucket().width));
     if (out.empty()) return out;
-    const std::optional<Vec2> place = spoil_place(job, arm_, X_WB * arm_.X_BS(), surface);
+    const std::optional<Vec2> place = spoil_place(job, arm_, X_WB * arm_.X_BS(), surface, &pit);
     // A machine that stands askew dumps where it was to dump.
     for (control::JobCut& one : out) one.dump_at = place.value_or(job.dump_from);
     return out;
@@ -68,7 +68,8 @@ class PitPlanner final : public control::JobPlanner {
   bool can_dump(const control::PitJob& job, const Pose& X_WB,
                 const control::SurfaceView& surface) const override {
     if (job.heap || job.into_beds) return true;
-    return spoil_place(job, arm_, X_WB * arm_.X_BS(), surface).has_value();
+    const PitShape pit(job.area, surface);
+    return spoil_place(job, arm_, X_WB * arm_.X_BS(), surface, &pit).has_value();
   }
 
   control::JobVolume volume(const control::PitJob& job,

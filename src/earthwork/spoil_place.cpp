@@ -45,7 +45,8 @@ std::vector<Vec2> reachable_spoil(const control::PitJob& job, const control::Arm
 }
 
 std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,
-                                const Pose& X_WS, const control::SurfaceView& surface) {
+                                const Pose& X_WS, const control::SurfaceView& surface,
+                                const PitShape* pit) {
   const Vec2 centre = X_WS.translation().head<2>();
   const std::vector<Vec2> line = spoil_points(job);
   for (double off = 0; off <= kMostOff; off += kSpacing) {
@@ -54,6 +55,7 @@ std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKi
     for (const Vec2& on_line : line)
       for (const double side : {-off, off}) {
         const Vec2 p = on_line + side * (on_line - centre).normalized();
+        if (off > 0 && pit != nullptr && pit->is_near(p, kSpoilClear)) continue;
         const double height = control::heap_height(surface, p);
         if (height >= lowest || !can_dump(job, arm, X_WS, p, height)) continue;
         lowest = height;

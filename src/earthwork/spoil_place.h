@@ -8,8 +8,12 @@
 #include "control/arm_kinematics.h"
 #include "control/job_planner.h"
 #include "control/surface.h"
+#include "earthwork/pit_shape.h"
 
 namespace navvy::earthwork {
+
+/// Distance of spoil from the edge of the pit, at least [m].
+inline constexpr double kSpoilClear = 0.5;
 
 /// Returns true if the arm with its swing axis at X_WS can dump at the point `p`, on ground of the
 /// given height in W [m].
@@ -25,8 +29,9 @@ std::vector<Vec2> reachable_spoil(const control::PitJob& job, const control::Arm
 
 /// Returns the point of the windrow at which the spoil is lowest among those over which the bucket
 /// can open with the swing axis at X_WS; if there is none, one beside the windrow, as near to it as
-/// possible; nothing without one.
+/// possible and clear of `pit`, if that is given; nothing without one.
 std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,
-                                const Pose& X_WS, const control::SurfaceView& surface);
+                                const Pose& X_WS, const control::SurfaceView& surface,
+                                const PitShape* pit = nullptr);
 
 }  // namespace navvy::earthwork
