@@ -10,6 +10,7 @@ void JobCut::visit(Archive& a) {
   a.require(floor.size() >= 2, "floor", "a cut has at least two heights");
   a("rim", rim);
   a("dump_at", dump_at);
+  a("has_dump_at", has_dump_at);
   a("key", key);
   a("levels", levels);
   a("fill", fill);

@@ -61,6 +61,9 @@ struct JobCut {
   double rim = 0;
   /// Place (x, y) in W at which the soil is dumped [m].
   Vec2 dump_at = Vec2::Zero();
+  /// True if there is such a place; false if the bucket can open over the spoil nowhere within
+  /// reach, or if the soil goes into a bed.
+  bool has_dump_at = false;
   /// Number of layer and direction; the same for the same cut on changed ground.
   std::int64_t key = 0;
   /// True for one pass along the whole strip, which levels it.
@@ -126,9 +129,6 @@ class JobPlanner {
   /// strips that are to be levelled, if the job has a tolerance.
   virtual std::vector<JobCut> cuts(const PitJob& job, const Pose& X_WB,
                                    const SurfaceView& surface) const = 0;
-  /// Returns true if the bucket can open over the spoil of a job somewhere, from the place where
-  /// the machine stands. A windrow may have grown too high.
-  virtual bool can_dump(const PitJob& job, const Pose& X_WB, const SurfaceView& surface) const = 0;
   /// Returns the volumes of a job on the present `surface`.
   virtual JobVolume volume(const PitJob& job, const SurfaceView& surface) const = 0;
 };

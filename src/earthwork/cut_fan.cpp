@@ -30,7 +30,7 @@ constexpr double kBeyondEdge = 0.6, kHighEdge = 0.25;
 // the bucket has no space to curl.
 constexpr double kBreakOut = 0.6, kCurlSpace = 2.1;
 // It begins so far beyond a side that it meets at its far end [m]: the bucket keeps clear of the
-// end of a cut.
+// end of a cut, and is down only some way from it.
 constexpr double kFarOut = 0.2;
 // A fill has mounds where a load fell: its level is looked at over so many samples at a time.
 constexpr std::size_t kMound = 10;
@@ -60,10 +60,10 @@ class Fan {
         worth_above_(limits.worth_above),
         worth_last_(limits.worth_last),
         outside_(limits.outside),
-        far_out_(limits.far_out),
         least_soil_(std::min(kLeastSoil, kLeastShare * job.area.depth)),
         fills_(job.heap.has_value()),
-        square_(limits.square) {
+        square_(limits.square),
+        levels_beyond_(limits.levels_beyond) {
     const Pose X_WS = X_WB * reach.arm().X_BS();
     centre_ = X_WS.translation().head<2>();
     ring_ = X_WS.translation().z();
@@ -294,10 +294,10 @@ class Fan {
     const int length = last - first;
     if (first < 0 || length * kSample < kLeastLength || worst_mean(squares) <= tolerance_)
       return std::nullopt;
-    const int farther = samples_beyond(last, floors.back(), far_out_);
+    const int farther = levels_beyond_ ? samples_beyond(last, floors.back(), kFarOut) : 0;
     floors.insert(floors.end(), static_cast<std::size_t>(farther), floors.back());
     last += farther;
-    const bool out_at_depth = square_ || far_out_ > 0;
+    const bool out_at_depth = square_ || levels_beyond_;
     const int more =
         out_at_depth ? std::min(first, static_cast<int>(kBreakOut / kSample)) : beyond(first);
     if (out_at_depth)
@@ -317,8 +317,8 @@ class Fan {
   const ArmReach& reach_;
   const control::SurfaceView& surface_;
   const double width_, capacity_, slope_, tolerance_, sector_, aside_, nearest_, worth_above_,
-      worth_last_, outside_, far_out_, least_soil_;
-  const bool fills_, square_;
+      worth_last_, outside_, least_soil_;
+  const bool fills_, square_, levels_beyond_;
   Vec2 centre_ = Vec2::Zero();
   double ring_ = 0, heading_ = 0, turn_ = 0.1;
   int layers_ = 1;

@@ -35,8 +35,8 @@ struct FanLimits {
   double tolerance = 0;
   /// Largest distance of the bucket's sides from the pit [m]: a trench is dug one bucket wide.
   double outside = 0.1;
-  /// A strip that is levelled begins so far beyond the far side of the pit [m].
-  double far_out = 0;
+  /// True if strips that are levelled go on beyond both sides of the pit at the depth of the floor.
+  bool levels_beyond = false;
 };
 
 /// Returns the cuts that are worth a scoop from the pose X_WB of the base link: layer by layer from

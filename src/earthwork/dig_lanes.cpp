@@ -23,8 +23,6 @@ constexpr double kStraightLane = 3, kOverlap = 0.1, kStraightSector = radians(32
 // Stations of straight lanes are looked for in steps of this [m], and a strip along the near side
 // with this share of the soil of its lane is no reason for one.
 constexpr double kStraightStep = 0.05, kStraightLeast = 0.02;
-// A pass that levels begins so far beyond a steep side, or the bucket is not down at it [m].
-constexpr double kFarOut = 0.2;
 // Space for the end of a cut between the nearest soil and where the arm can dig [m].
 constexpr double kStraightEnd = 0.5;
 // The sides of the bucket may be so far outside of such a pit [m]: a strip that ends aslant at a
@@ -41,9 +39,9 @@ constexpr double kParallel = 0.1;
 // stands on ground that no neighbour digs.
 constexpr double kRow = 1.2;
 
-/// Returns true for a wide floor that is levelled up to its steep sides.
-bool levels_to_sides(const control::PitJob& job, const PitShape& pit, double bucket_width) {
-  return !job.heap && job.tolerance > 0 && job.area.batter > kSteep && is_wide(pit, bucket_width);
+/// Returns true for a wide pit with steep sides, which is dug, or levelled, up to these.
+bool is_steep_and_wide(const control::PitJob& job, const PitShape& pit, double bucket_width) {
+  return !job.heap && job.area.batter > kSteep && is_wide(pit, bucket_width);
 }
 
 /// Adds middles between lowest and highest so that none are more than kStraightLane apart.
@@ -90,7 +88,7 @@ bool is_wide(const PitShape& pit, double bucket_width) {
 }
 
 bool digs_straight(const control::PitJob& job, const PitShape& pit, double bucket_width) {
-  return !job.heap && job.tolerance <= 0 && job.area.batter > kSteep && is_wide(pit, bucket_width);
+  return job.tolerance <= 0 && is_steep_and_wide(job, pit, bucket_width);
 }
 
 std::vector<RetreatAxis> lanes(const control::PitJob& job, const PitShape& pit, double bucket_width,
@@ -121,9 +119,12 @@ std::vector<RetreatAxis> lanes(const control::PitJob& job, const PitShape& pit, 
 
 SearchRules search_rules(const control::PitJob& job, const PitShape& pit, double bucket_width) {
   SearchRules out;
-  if (levels_to_sides(job, pit, bucket_width)) out.nearest = kFaceBegins + kStraightEnd;
+  if (is_steep_and_wide(job, pit, bucket_width)) out.nearest = kFaceBegins + kStraightEnd;
   if (!digs_straight(job, pit, bucket_width)) return out;
-  return {kStraightSector, kStraightStep, kStraightLeast, kFaceBegins + kStraightEnd};
+  out.sector = kStraightSector;
+  out.step = kStraightStep;
+  out.least_share = kStraightLeast;
+  return out;
 }
 
 FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bucket_width) {
@@ -131,10 +132,10 @@ FanLimits lane_limits(const control::PitJob& job, const PitShape& pit, double bu
   const bool straight = digs_straight(job, pit, bucket_width);
   // A trench with steep sides ends square, too.
   out.square = straight || (!job.heap && job.area.batter > kSteep && !is_wide(pit, bucket_width));
-  if (straight || levels_to_sides(job, pit, bucket_width)) {
+  if (is_steep_and_wide(job, pit, bucket_width)) {
     out.outside = kOutside;
     out.nearest = kFaceBegins + kStraightEnd;
-    out.far_out = kFarOut;
+    out.levels_beyond = true;
   }
   if (!straight) return out;
   out.sector = kStraightSector;

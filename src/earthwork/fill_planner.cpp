@@ -199,6 +199,7 @@ std::vector<control::JobCut> fill_cuts(const control::PitJob& job, const ArmReac
                      [&](const auto& a, const auto& b) { return aside(a) > aside(b); });
     for (control::JobCut& one : out) {
       one.dump_at = hollow->p;
+      one.has_dump_at = true;
       one.fill = std::clamp(hollow->volume / capacity, kLeastScoop, 1.0);
     }
     if (!out.empty()) return out;
@@ -210,12 +211,14 @@ std::vector<control::JobCut> fill_cuts(const control::PitJob& job, const ArmReac
   back.dump_from = job.heap->from;
   back.dump_to = job.heap->to;
   // Where the heap has no more scoops, this soil fills the hollow.
-  const Vec2 place = hollow ? hollow->p
-                            : spoil_place(back, reach.arm(), X_WB * reach.arm().X_BS(), surface)
-                                  .value_or(job.heap->from);
+  const Vec2 place =
+      hollow ? hollow->p
+             : spoil_place(back, reach.arm(), X_WB * reach.arm().X_BS(), surface, fill.hole)
+                   .value_or(job.heap->from);
   for (control::JobCut& one : out) {
     one.key += kLevelKeys;
     one.dump_at = place;
+    one.has_dump_at = true;
   }
   return out;
 }

@@ -93,7 +93,7 @@ control::JobPlan plan_loading(const control::PitJob& job, const ArmReach& reach,
          "from where the machine stands, with its swing axis at " + place_text(centre) +
              ", no soil of the heap is within reach",
          "stand at most " + metres(most) + " from it, with the heap ahead or beside"});
-  if (!spoil_place(job, reach.arm(), X_WS, surface))
+  if (reachable_spoil(job, reach.arm(), X_WS, surface).empty())
     out.faults.push_back({"dump_at_m", place_text(job.dump_from),
                           "the bucket cannot be opened over the beds from there",
                           "let the trucks stand nearer, or lower dump_height_m"});

@@ -58,18 +58,13 @@ class PitPlanner final : public control::JobPlanner {
     const PitShape pit(job.area, surface);
     std::vector<control::JobCut> out =
         cut_fan(job, pit, reach_, X_WB, surface, lane_limits(job, pit, arm_.bucket().width));
-    if (out.empty()) return out;
-    const std::optional<Vec2> place = spoil_place(job, arm_, X_WB * arm_.X_BS(), surface, &pit);
-    // A machine that stands askew dumps where it was to dump.
-    for (control::JobCut& one : out) one.dump_at = place.value_or(job.dump_from);
+    if (out.empty() || job.into_beds) return out;
+    const std::optional<Vec2> place = spoil_place(job, arm_, X_WB * arm_.X_BS(), surface, pit);
+    for (control::JobCut& one : out) {
+      one.has_dump_at = place.has_value();
+      if (place) one.dump_at = *place;
+    }
     return out;
-  }
-
-  bool can_dump(const control::PitJob& job, const Pose& X_WB,
-                const control::SurfaceView& surface) const override {
-    if (job.heap || job.into_beds) return true;
-    const PitShape pit(job.area, surface);
-    return spoil_place(job, arm_, X_WB * arm_.X_BS(), surface, &pit).has_value();
   }
 
   control::JobVolume volume(const control::PitJob& job,

@@ -46,24 +46,25 @@ std::vector<Vec2> reachable_spoil(const control::PitJob& job, const control::Arm
 
 std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,
                                 const Pose& X_WS, const control::SurfaceView& surface,
-                                const PitShape* pit) {
+                                const PitShape& pit) {
   const Vec2 centre = X_WS.translation().head<2>();
   const std::vector<Vec2> line = spoil_points(job);
-  for (double off = 0; off <= kMostOff; off += kSpacing) {
-    std::optional<Vec2> best;
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Vec2& on_line : line)
-      for (const double side : {-off, off}) {
-        const Vec2 p = on_line + side * (on_line - centre).normalized();
-        if (off > 0 && pit != nullptr && pit->is_near(p, kSpoilClear)) continue;
-        const double height = control::heap_height(surface, p);
-        if (height >= lowest || !can_dump(job, arm, X_WS, p, height)) continue;
-        lowest = height;
-        best = p;
-      }
-    if (best) return best;
-  }
-  return std::nullopt;
+  std::optional<Vec2> best;
+  double lowest = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const Vec2& p) {
+    const double height = control::heap_height(surface, p);
+    if (height >= lowest || !can_dump(job, arm, X_WS, p, height)) return;
+    lowest = height;
+    best = p;
+  };
+  for (const Vec2& p : line) offer(p);
+  for (double off = kSpacing; off <= kMostOff && !best; off += kSpacing)
+    for (const Vec2& p : line)
+      for (const double side : {-off, off})
+        if (const Vec2 beside = p + side * (p - centre).normalized();
+            !pit.is_near(beside, kSpoilClear))
+          offer(beside);
+  return best;
 }
 
 }  // namespace navvy::earthwork

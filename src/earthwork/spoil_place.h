@@ -29,9 +29,9 @@ std::vector<Vec2> reachable_spoil(const control::PitJob& job, const control::Arm
 
 /// Returns the point of the windrow at which the spoil is lowest among those over which the bucket
 /// can open with the swing axis at X_WS; if there is none, one beside the windrow, as near to it as
-/// possible and clear of `pit`, if that is given; nothing without one.
+/// possible and clear of `pit`; nothing without one.
 std::optional<Vec2> spoil_place(const control::PitJob& job, const control::ArmKinematics& arm,
                                 const Pose& X_WS, const control::SurfaceView& surface,
-                                const PitShape* pit = nullptr);
+                                const PitShape& pit);
 
 }  // namespace navvy::earthwork

@@ -121,6 +121,7 @@ TEST(FillPlan, FillsAHollowFromAMoundOnceTheHeapIsUsedUp) {
       planner->cuts(fill(6).job(), make_pose(-9, 0, 0), control::GroundSurfaceView(ground));
   ASSERT_FALSE(cuts.empty());
   for (const control::JobCut& cut : cuts) {
+    EXPECT_TRUE(cut.has_dump_at);
     EXPECT_NEAR(cut.dump_at.x(), -2.5, 0.6);
     EXPECT_NEAR(cut.dump_at.y(), 0, 0.6);
     EXPECT_LT(cut.near.x(), -3.9);

@@ -50,6 +50,16 @@ DigArea pit(double length, double width, double depth, double batter = 45, doubl
   return out;
 }
 
+/// A floor with steep sides that is levelled, dumped on a heap.
+Grade steep_floor(double length, double width, double depth, const Vec2& dump_at) {
+  Grade out;
+  out.polygon = pit(length, width, depth, 90).polygon;
+  out.depth = depth;
+  out.batter = radians(90);
+  out.dump_at = out.dump_to = dump_at;
+  return out;
+}
+
 JobPlan plan_of(const DigArea& step, const Pose& X_WB = make_pose(-10.5, 0, 0)) {
   const heightfield::Ground ground = control::testing::flat_ground();
   const auto planner = job_planners()(control::testing::ew180_like());
@@ -171,11 +181,7 @@ TEST(PitPlan, CutsOfATrenchRunOutBeyondItsNearEndAtTheDepthOfTheFloor) {
   // The curl's ramp would be left in the trench; the levelling pass runs out, too.
   const heightfield::Ground ground = control::testing::flat_ground();
   const auto planner = job_planners()(control::testing::ew180_like());
-  Grade step;
-  step.polygon = pit(3, 1, 0.4, 90).polygon;
-  step.depth = 0.4;
-  step.batter = radians(90);
-  step.dump_at = step.dump_to = Vec2(-3, 6.4);
+  const Grade step = steep_floor(3, 1, 0.4, Vec2(-3, 6.4));
   const std::vector<control::JobCut> cuts =
       planner->cuts(step.job(), make_pose(-7, 0, 0), control::GroundSurfaceView(ground));
   int levelling = 0;
@@ -191,11 +197,7 @@ TEST(PitPlan, CutsOfATrenchRunOutBeyondItsNearEndAtTheDepthOfTheFloor) {
 TEST(PitPlan, LevelsAWideFloorUpToItsSteepSides) {
   const heightfield::Ground ground = control::testing::flat_ground();
   const auto planner = job_planners()(control::testing::ew180_like());
-  Grade step;
-  step.polygon = pit(8, 4, 0.2, 90).polygon;
-  step.depth = 0.2;
-  step.batter = radians(90);
-  step.dump_at = step.dump_to = Vec2(-6, 7);
+  const Grade step = steep_floor(8, 4, 0.2, Vec2(-6, 7));
   const JobPlan plan =
       planner->plan(step.job(), make_pose(-10.5, 0, 0), control::GroundSurfaceView(ground));
   ASSERT_GE(plan.stations.size(), 2u);
@@ -227,7 +229,7 @@ TEST(PitPlan, DumpsOnTheLowerOfTwoWindrows) {
   const auto dumped = [&] {
     const std::vector<control::JobCut> cuts =
         planner->cuts(step.job(), X_WB, control::GroundSurfaceView(ground));
-    return cuts.empty() ? 0 : cuts.front().dump_at.y();
+    return cuts.empty() || !cuts.front().has_dump_at ? 0 : cuts.front().dump_at.y();
   };
   EXPECT_NEAR(dumped(), 6.4, 1e-9);
   heightfield::SoilLayer layer;
@@ -445,7 +447,7 @@ TEST(DigArea, EndsWhereTheSpoilIsTooHighToDumpOn) {
   ASSERT_FALSE(rig.op.reports().empty());
   const control::StepReport& report = rig.op.reports().back();
   EXPECT_EQ(report.state, control::StepState::kBlocked);
-  EXPECT_NE(report.reason.find("the spoil is so high that the bucket can open over it nowhere"),
+  EXPECT_NE(report.reason.find("the spoil is too high for the bucket to open over it anywhere"),
             std::string::npos)
       << report.reason;
   EXPECT_TRUE(rig.cycles.empty());

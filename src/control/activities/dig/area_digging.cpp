@@ -158,14 +158,12 @@ Dig AreaDigging::cut_step() {
 }
 
 bool AreaDigging::select_cut(const Observation& seen) {
-  bool dumps = true;
   const std::vector<JobCut> cuts = with_surface(seen, [&](const SurfaceView& surface) {
-    dumps = place_.jobs->can_dump(job_, seen.X_WB, surface);
     return place_.jobs->cuts(job_, seen.X_WB, surface);
   });
-  if (!dumps && !cuts.empty()) {
+  if (!cuts.empty() && !cuts.front().has_dump_at && !job_.into_beds) {
     m.trouble = "at station " + std::to_string(m.station + 1) +
-                " the spoil is so high that the bucket can open over it nowhere within reach";
+                " the spoil is too high for the bucket to open over it anywhere within reach";
     place_.warn(m.trouble);
     return false;
   }

@@ -11,7 +11,7 @@ namespace {
 
 // Share of a bucket by which a pass of a stated load may be planned larger.
 constexpr double kMorePass = 0.25;
-// Share of a stated load by which the last pass may exceed what is lacking.
+// Share of a stated load by which a pass may exceed what the bed lacks.
 constexpr double kSurplus = 0.01;
 constexpr double kMostShift = 0.4;  // by which a dump is laid elsewhere to centre a load [m]
 constexpr double kResidue = 0.4;    // of a bucket: less soil in a bed is no pass
@@ -39,10 +39,8 @@ void Digging::learn_gain(double payload) {
 bool Digging::trims(const Observation& seen, double dt) {
   if (!dig_.has_load) return false;
   if (trim_.opening() == 0) learn_gain(seen.payload);
-  // Only the last pass: what another one brings too much makes the next ones smaller.
-  const double lack = lacking(seen);
-  const double most = m.wanted < lack ? lack : lack + kSurplus * dig_.load;
-  const bool works = trim_.advance(seen.payload, most, dt);
+  // What a pass brings too much makes the next ones smaller: no more than the bed lacks is needed.
+  const bool works = trim_.advance(seen.payload, lacking(seen) + kSurplus * dig_.load, dt);
   place_.handover.q[3] =
       std::clamp(place_.handover.q[3] + trim_.opening(), arm_.lower(2), arm_.upper(2));
   return works;
